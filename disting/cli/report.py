@@ -1,4 +1,4 @@
-"""disting report: pages, figures and tables of whole catalogues, and of the paper."""
+"""disting report: pages, figures and tables of whole catalogues, or of a file of models."""
 
 import argparse
 from concurrent.futures import Executor
@@ -9,7 +9,7 @@ from disting.catalogs.damper_family import (
     SHIPPED_SIZES as DAMPER_SIZES,
     damper_catalog,
 )
-from disting.catalogs.files import SHIPPED_SIZES, damper_name, name_of
+from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes_files import sizes_catalog
 from disting.cli.arguments import Listed, add_out, add_work, size_or_list
@@ -29,11 +29,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     text = f"numbers of masses, files of models, or {LISTS}"
     metavar = "N|FILE.json|FAMILY"
     parser.add_argument("masses", type=size_or_list, nargs="*", metavar=metavar, help=text)
-    text = (
-        "the paper's figures and tables from our own data, and its claims one by one, into the"
-        " folder paper below DIR"
-    )
-    parser.add_argument("--paper", action="store_true", help=text)
     choice = parser.add_mutually_exclusive_group()
     for name in ("damped", "undamped", "both"):
         choice.add_argument(
@@ -49,8 +44,8 @@ def run(options: argparse.Namespace) -> int:
     from disting.report.model_list import page_name
     from disting.report.write import write_report
 
-    if not (options.masses or options.paper):
-        raise InputError("name at least one number of masses, a file of models, or --paper")
+    if not options.masses:
+        raise InputError("name at least one number of masses, or a file of models")
     files = [x for x in options.masses if isinstance(x, Listed)]
     options.masses = [x for x in options.masses if not isinstance(x, Listed)]
     lists = [(page_name(Path(file)), file, list_of(file)) for file in files]
@@ -59,8 +54,6 @@ def run(options: argparse.Namespace) -> int:
     names = [name for name, *_ in lists]
     if len(set(names)) < len(names):
         raise InputError("two files would have one page: rename one of them")
-    if options.paper:
-        _paper(options)
     # pages of lists first: the start page and the search of the site find them
     for name, file, models in lists:
         _model_list(options, models, file, name)
@@ -125,33 +118,6 @@ def _catalogues(options: argparse.Namespace) -> None:
             " indistinguishable models"
         )
     print(f"{len(paths)} files in {options.out}; open {options.out / 'index.html'}")
-
-
-def _paper(options: argparse.Namespace) -> None:
-    """Write the paper's figures, tables and claims."""
-    from collections import Counter
-
-    from disting.paper import CLAIMS, Findings, Outcome
-    from disting.report.paper import write_paper
-
-    with engine_for(options) as (engine, pool, progress):
-        findings = Findings(engine, pool, progress)
-        paths = write_paper(findings, options.out / "paper", _names(options))
-    counts = Counter(claim.outcome for claim in CLAIMS)
-    agree, differ, unchecked = (counts[outcome] for outcome in Outcome)
-    print(
-        f"{len(CLAIMS)} claims of the paper: {agree} agree, {differ} differ, {unchecked} cannot be"
-        " checked"
-    )
-    print(f"{len(paths)} files in {options.out / 'paper'}; open {paths[0]}")
-
-
-def _names(options: argparse.Namespace) -> set[str]:
-    """Pages of families that the folder has, or will have when the command is done."""
-    members = {p.stem for p in options.out.glob("*.html")}
-    kinds = [(n, d) for n in options.masses for d in _choices(options)]
-    dampers = {damper_name(n, d) for n, d in kinds if n in DAMPER_SIZES}
-    return members | {name_of(n, d) for n, d in kinds} | dampers
 
 
 def _choices(options: argparse.Namespace) -> list[bool]:

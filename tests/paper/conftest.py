@@ -2,7 +2,7 @@
 
 import pytest
 
-from disting.paper import Findings
+from tests.paper.claims import Findings
 
 
 @pytest.fixture(scope="session")

@@ -8,8 +8,8 @@ from math import pi
 import pytest
 
 from disting.fit.search.candidates import figure_1
-from disting.paper import CLAIMS, Claim, Findings, Observed, Outcome
-from disting.paper.refit import GIVEN, refit
+from tests.paper.claim import GIVEN, refit
+from tests.paper.claims import CLAIMS, Claim, Findings, Observed, Outcome
 
 FOUND = {
     "weights": "π² a line for either",

@@ -7,18 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from disting.cli.run import main
-from disting.paper import CLAIMS, Findings, Outcome
 from disting.report.matrix import LETTER
-from disting.report.paper import paper_figures, paper_page, write_paper
-from disting.report.paper.figures import of_decisions, triangles
-from disting.report.paper.paper_page import with_scripts
-from disting.report.paper.picture import of_scene
-from disting.report.paper.refit import refit_figure
 from disting.report.scene import Text
 from disting.report.svg import svg
 from disting.verdict.query import View
 from disting.verdict.result import Relation
+from reports.paper.figures import of_decisions, of_scene, paper_figures, refit_figure, triangles
+from reports.paper.make import paper_page, with_scripts, write_paper
+from tests.paper.claims import CLAIMS, Findings, Outcome
 from tests.report.outline import Outline
 
 pytestmark = pytest.mark.full
@@ -198,8 +194,3 @@ def test_another_computation_gives_the_same_bytes(folder):
 
 def test_subscripts_of_hostile_text():
     assert with_scripts("<b>_x^2") == "&lt;b&gt;<sub>x</sub><sup>2</sup>"
-
-
-def test_report_needs_something_to_report(capsys):
-    assert main(["report"]) == 2
-    assert "--paper" in capsys.readouterr().err

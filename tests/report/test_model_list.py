@@ -196,7 +196,7 @@ def test_the_command_writes_the_page_and_refuses_what_it_cannot(tmp_path: Path) 
         ((one, two), "two files would have one page"),
         ((one, "--damped"), "--damped belongs to numbered chains"),
         ((tmp_path / "no.json",), "cannot be read"),
-        ((), "a file of models, or --paper"),
+        ((), "number of masses, or a file of models"),
     ):
         done = called("report", *arguments, "--out", tmp_path / "none")
         assert done.returncode == 2 and cause in done.stderr and not (tmp_path / "none").exists()

@@ -1,27 +1,33 @@
-"""The page "The paper, claim by claim": every claim with what is found here, then the figures
-and the tables.
+"""The page "The paper, claim by claim" and the figures of the paper from our own data:
+`python -m reports.paper.make`, from the top folder of the repository.
+
+The page has every claim with what is found here, then the figures and the tables. It is written
+beside this script, which takes minutes; the start page of the site links to it.
 """
 
+import argparse
 import re
 from collections import Counter
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from jinja2 import ChoiceLoader, FileSystemLoader
 from markupsafe import Markup, escape
 
-from disting.catalogs import ModelRow
+from disting import Engine, Family, ModelRow, Store
 from disting.catalogs.files import damper_name, name_of
 from disting.files import __version__, write_whole
-from disting.model.family import Family
-from disting.paper import SECTIONS, Claim, Findings, Observed, Outcome
-from disting.paper.claim import Observation
 from disting.report.drawing import draw
-from disting.report.environment import render
+from disting.report.environment import Policy, environment
 from disting.report.fit.responses import drawing
-from disting.report.paper.figures import paper_figures
-from disting.report.paper.picture import Picture
 from disting.report.words import plural
+from disting.store.scheduling import executor
+from reports.paper.figures import Picture, paper_figures
+from tests.paper.claim import Observation
+from tests.paper.claims import SECTIONS, Claim, Findings, Observed, Outcome
+
+HERE = Path(__file__).parent
 
 
 def write_paper(findings: Findings, out: Path, beside: Container[str] = ()) -> list[Path]:
@@ -162,8 +168,12 @@ def paper_page(findings: Findings, pictures: Sequence[Picture], beside: Containe
     listed = parts(findings, beside)
     lines = [line for part in listed for line in part.lines]
     counts = Counter(line.outcome for line in lines)
-    return render(
-        "paper.html",
+    policy = Policy()
+    templates = environment().overlay(
+        loader=ChoiceLoader([environment().loader, FileSystemLoader(HERE)])
+    )
+    text = templates.get_template("page.jinja").render(
+        policy=policy,
         parts=listed,
         counts=[
             (outcome, outcome.name.lower(), SIGNS[outcome], counts[outcome]) for outcome in Outcome
@@ -183,6 +193,7 @@ def paper_page(findings: Findings, pictures: Sequence[Picture], beside: Containe
         plural=plural,
         version=__version__,
     )
+    return policy.of(text)
 
 
 def figure_of(place: str, pictures: Sequence[Picture]) -> str:
@@ -209,3 +220,22 @@ def with_scripts(text: str) -> Markup:
     """
     subscripts = re.sub(r"(?<=\S)_(\w+[+−]?)", r"<sub>\1</sub>", str(escape(text)))
     return Markup(re.sub(r"\^(\w+)", r"<sup>\1</sup>", subscripts))
+
+
+def main() -> None:
+    """Write the page and the figures; tell how many claims agree."""
+    parser = argparse.ArgumentParser(description="The paper's figures and claims from our own data")
+    parser.add_argument("--out", type=Path, default=HERE, help="folder (default: beside this)")
+    parser.add_argument("--jobs", type=int, default=1, help="processes (default: 1)")
+    options = parser.parse_args()
+    beside = {path.stem for path in options.out.resolve().parent.glob("*.html")}
+    with Store.open() as store, executor(options.jobs) as pool:
+        paths = write_paper(Findings(Engine(store=store), pool), options.out, beside)
+    counts = Counter(claim.outcome for _, claims in SECTIONS for claim in claims)
+    told = ", ".join(f"{counts[outcome]}: {outcome.value}" for outcome in Outcome)
+    print(f"{counts.total()} claims of the paper; {told}")
+    print(f"{len(paths)} files in {options.out}; open {paths[0]}")
+
+
+if __name__ == "__main__":
+    main()
