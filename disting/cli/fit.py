@@ -18,7 +18,7 @@ from disting.cli.workers import Work, announce, cores, engine_for
 from disting.errors import InputError, enumeration, printable
 from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import Rule
-from disting.fit.judge.practical import Thresholds
+from disting.statistics.practical import Thresholds
 from disting.fit.judge.reading import read_in_words
 from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.selection import Selection
@@ -33,7 +33,7 @@ from disting.report.fit.selection_json import selection_to_dict
 
 # what few runs need is imported where options name it: an earlier fit, a swarm, files of models
 if TYPE_CHECKING:
-    from disting.fit.plan.fit_file import FitRecord
+    from disting.planning.fit_file import FitRecord
     from disting.fit.search.estimate import Method
 
 WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
@@ -168,7 +168,7 @@ def _left(options: argparse.Namespace) -> "FitRecord | None":
             f"{options.left} names the candidates: leave"
             f" {enumeration(sorted(own)) or '--damped and --undamped'} away"
         )
-    from disting.fit.plan.fit_file import named_by
+    from disting.planning.fit_file import named_by
 
     return named_by(options.left)
 
@@ -227,7 +227,7 @@ def _write(
     test: FrequencyResponse | None,
     options: argparse.Namespace,
 ) -> None:
-    from disting.fit.results.export import control_script, write_mat
+    from disting.export import control_script, write_mat
     from disting.report.fit import export, write_fit_report
 
     names = selection.selected.practical.names if options.profiles and selection.selected else ()

@@ -11,8 +11,8 @@ from disting.cli.output import complain
 from disting.errors import InputError, enumeration
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.fit.plan.fit_file import FitRecord, is_of_networks, left_by, named_by
-from disting.fit.plan.next_experiment import bench_of, predictions, stood
+from disting.planning.fit_file import FitRecord, is_of_networks, left_by, named_by
+from disting.planning.next_experiment import bench_of, predictions, stood
 from disting.fit.results.networks import BAR
 from disting.network.network import Network
 from disting.report.fit.left_first import first_sentence, repeat_command

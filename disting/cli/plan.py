@@ -14,17 +14,17 @@ from disting.cli.output import complain, emit
 from disting.cli.workers import engine_for
 from disting.errors import InputError, printable
 from disting.files import Format, json_text
-from disting.fit.noise.scatter import scatter
-from disting.fit.plan.design import Design, design, designed_to_dict
-from disting.fit.plan.fit_file import (
+from disting.statistics.scatter import scatter
+from disting.planning.design import Design, design, designed_to_dict
+from disting.planning.fit_file import (
     FitRecord,
     NamedNetworks,
     is_of_networks,
     named_by,
     networks_named_by,
 )
-from disting.fit.plan.power import Answer, Plan, plan, plan_to_dict
-from disting.fit.plan.search import AnyStructure, name_of, responses_of, sensor_of
+from disting.planning.power import Answer, Plan, plan, plan_to_dict
+from disting.planning.search import AnyStructure, name_of, responses_of, sensor_of
 from disting.fit.search.containment import contains
 from disting.fit.search.starts import Parameters
 from disting.measurement import read

@@ -130,7 +130,7 @@ if TYPE_CHECKING:
         poles as poles,
         zeros as zeros,
     )
-    from disting.fit.judge.practical import (
+    from disting.statistics.practical import (
         Practical as Practical,
         Thresholds as Thresholds,
         collinearity_index as collinearity_index,
@@ -140,12 +140,12 @@ if TYPE_CHECKING:
     )
     from disting.fit.judge.quantity import QuantityReading as QuantityReading
     from disting.fit.judge.readings import Reading as Reading
-    from disting.fit.noise.covariance import Noise as Noise
-    from disting.fit.noise.scatter import Scatter as Scatter
-    from disting.fit.plan.design import Design as Design, design as design
-    from disting.fit.plan.power import Plan as Plan, plan as plan
-    from disting.fit.plan.rival import Rival as Rival, gain as gain
-    from disting.fit.results.export import (
+    from disting.statistics.covariance import Noise as Noise
+    from disting.statistics.scatter import Scatter as Scatter
+    from disting.planning.design import Design as Design, design as design
+    from disting.planning.power import Plan as Plan, plan as plan
+    from disting.planning.rival import Rival as Rival, gain as gain
+    from disting.export import (
         NumberedStructure as NumberedStructure,
         control_script as control_script,
         predict as predict,

@@ -29,7 +29,7 @@ from disting.fit.judge.joint_verdicts import (
 )
 from disting.fit.judge.larger import check_left, searched_again
 from disting.fit.judge.members import Member, members
-from disting.fit.judge.practical import Thresholds
+from disting.statistics.practical import Thresholds
 from disting.fit.judge.quantity import quantity_readings
 from disting.fit.judge.readings import Reading, better_sign, pilot, readings
 from disting.fit.results.loop import Controller

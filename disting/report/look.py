@@ -9,7 +9,7 @@ import numpy as np
 from disting.errors import InputError
 from disting.files import __version__, json_text, write_whole
 from disting.fit.judge.members import QUANTILE
-from disting.fit.noise.scatter import Scatter, scatter
+from disting.statistics.scatter import Scatter, scatter
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.measurement.arrays import Real
 from disting.measurement.column_words import Role

@@ -7,8 +7,8 @@ from math import pi
 
 import pytest
 
-from disting.fit.plan.fit_file import named_by
-from disting.fit.plan.next_experiment import bench_of, predictions
+from disting.planning.fit_file import named_by
+from disting.planning.next_experiment import bench_of, predictions
 from disting.model.chain import Chain
 from disting.model.kinds import SENSOR
 from tests.cli.process import called

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from disting.fit import select
-from disting.fit.plan.power import plan
-from disting.fit.results.export import predict
+from disting.planning.power import plan
+from disting.export import predict
 from disting.measurement import FrequencyResponse, read, write_csv
 from disting.model.chain import Chain
 from disting.report.fit import selection_to_dict

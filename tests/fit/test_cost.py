@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.judge.practical import condition_indices, importance
+from disting.statistics.practical import condition_indices, importance
 from disting.fit.search.cost import Case, Cost, lines_by_coherence, lines_by_deviation
 from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse

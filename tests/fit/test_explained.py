@@ -19,7 +19,7 @@ from disting.fit.judge.explanation import (
     systematic_share,
     yardsticks,
 )
-from disting.fit.noise.scatter import change, scatter
+from disting.statistics.scatter import change, scatter
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost

@@ -7,7 +7,7 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit.judge.modes import oscillations, poles, zeros
-from disting.fit.results.export import (
+from disting.export import (
     NumberedStructure,
     control_script,
     predict,

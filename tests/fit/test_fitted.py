@@ -11,7 +11,7 @@ import pytest
 from disting.fit import confidence, fit_percent, select
 from disting.fit.judge.candidate import judge, observed_scatters
 from disting.fit.judge.members import QUANTILE
-from disting.fit.judge.practical import covariance
+from disting.statistics.practical import covariance
 from disting.fit.results.selection import response_of
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine

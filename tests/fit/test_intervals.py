@@ -10,9 +10,9 @@ from scipy.optimize import minimize
 from scipy.stats import f as f_distribution
 
 from disting.fit.judge.members import QUANTILE, disagreements
-from disting.fit.judge.practical import covariance, practical
-from disting.fit.noise.covariance import Noise, correlation, equal, expected_deviation, noise
-from disting.fit.noise.scatter import scatter
+from disting.statistics.practical import covariance, practical
+from disting.statistics.covariance import Noise, correlation, equal, expected_deviation, noise
+from disting.statistics.scatter import scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task

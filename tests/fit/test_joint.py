@@ -19,8 +19,8 @@ from disting.fit.judge.joint_verdicts import (
     under_all,
 )
 from disting.fit.judge.members import QUANTILE
-from disting.fit.judge.practical import covariance
-from disting.fit.noise.covariance import expected_deviation
+from disting.statistics.practical import covariance
+from disting.statistics.covariance import expected_deviation
 from disting.fit.search.cost import Case, Cost, lines_by_deviation
 from disting.fit.search.data import Weights
 from disting.fit.search.descent import fine

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.results.export import state_space
+from disting.export import state_space
 from disting.fit.results.loop import Controller, margins, read_controller
 from disting.model.chain import Chain, Sensor
 from tests.fit.drives import truth

@@ -11,8 +11,8 @@ from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.mechanics import fold
 from disting.fit.judge.members import Member
-from disting.fit.judge.practical import Practical, Thresholds
-from disting.fit.noise.covariance import Noise
+from disting.statistics.practical import Practical, Thresholds
+from disting.statistics.covariance import Noise
 from disting.fit.search.candidates import figure_1, reference
 from disting.fit.search.estimate import Estimate
 from disting.fit.select import select

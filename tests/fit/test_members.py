@@ -14,8 +14,8 @@ from disting.fit.judge.admissible import Rule, undetermined_sentence
 from disting.fit.judge.alternatives import limits_of
 from disting.fit.judge.candidate import observed_scatters
 from disting.fit.judge.members import members, twins
-from disting.fit.judge.practical import Thresholds
-from disting.fit.results.export import predict
+from disting.statistics.practical import Thresholds
+from disting.export import predict
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.select import select
 from disting.model.chain import Chain

@@ -9,7 +9,7 @@ import pytest
 
 from disting import InputError, Sensor
 from disting.fit.networks import _excluding, fit_networks
-from disting.fit.noise.covariance import Noise, expected_deviation
+from disting.statistics.covariance import Noise, expected_deviation
 from disting.fit.search.network_plant import NetworkPlant, NetworkPlants
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse, read, write_csv

@@ -8,8 +8,8 @@ import pytest
 
 from disting.equivalence import equivalents
 from disting.experiments.menu import Costs, Item
-from disting.fit.plan.fit_file import named_by
-from disting.fit.plan.next_experiment import (
+from disting.planning.fit_file import named_by
+from disting.planning.next_experiment import (
     MOVES,
     STILL,
     Bench,
@@ -20,8 +20,8 @@ from disting.fit.plan.next_experiment import (
     step,
     stood,
 )
-from disting.fit.plan.power import power
-from disting.fit.results.export import predict
+from disting.planning.power import power
+from disting.export import predict
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR

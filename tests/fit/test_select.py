@@ -12,8 +12,8 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from disting.errors import InputError
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.modes import oscillations, physical, poles, zeros
-from disting.fit.judge.practical import Thresholds
-from disting.fit.results.export import predict
+from disting.statistics.practical import Thresholds
+from disting.export import predict
 from disting.fit.results.model_file import model_from_dict
 from disting.fit.results.selection import CRITERIA, profile, sweep
 from disting.fit.search.candidates import figure_1, variants

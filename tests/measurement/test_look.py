@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 
 from disting.errors import InputError
 from disting.files import Format, schema
-from disting.fit.noise.scatter import scatter
+from disting.statistics.scatter import scatter
 from disting.measurement import in_si, look, read
 from disting.measurement.column_words import Role, Why
 from disting.measurement.excitation import Excitation, excitation, moving_share

@@ -7,7 +7,7 @@ import pytest
 import scipy.signal
 
 from disting.errors import InputError
-from disting.fit.noise.scatter import scatter
+from disting.statistics.scatter import scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import Setup

@@ -8,7 +8,7 @@ import numpy as np
 
 from disting import Chain
 from disting.fit import Case, Cost, Plant, figure_1
-from disting.fit.judge.practical import (
+from disting.statistics.practical import (
     collinearity_index,
     condition_indices,
     importance,

@@ -17,9 +17,9 @@ from disting.errors import InputError
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, Share
 from disting.fit.networks import fit_networks
-from disting.fit.plan.next_experiment import Reason
-from disting.fit.plan.power import Answer
-from disting.fit.plan.rival import Limit, Trust
+from disting.planning.next_experiment import Reason
+from disting.planning.power import Answer
+from disting.planning.rival import Limit, Trust
 from disting.fit.search.setup import Setup
 from disting.general.any_model import of_network
 from disting.general.balls import POSITIVE

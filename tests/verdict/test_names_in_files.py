@@ -10,7 +10,7 @@ import pytest
 
 from disting import Experiment, Family, Model, everywhere_file, read_models, verify
 from disting.errors import InputError
-from disting.fit.plan.fit_file import left_by, named_by
+from disting.planning.fit_file import left_by, named_by
 from disting.fit.results.model_file import read_model
 from disting.fit.search.candidates import reference
 from disting.general.any_model import of_network

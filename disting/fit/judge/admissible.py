@@ -12,7 +12,7 @@ from enum import StrEnum
 
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.modes import Result, physical
-from disting.fit.judge.practical import Thresholds
+from disting.statistics.practical import Thresholds
 from disting.fit.search.estimate import Task
 
 UNDETERMINED = 10.0  # relative standard error above which a value is called not determined

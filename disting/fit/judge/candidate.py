@@ -22,11 +22,11 @@ from disting.fit.judge.explanation import (
     scatters,
     yardsticks,
 )
-from disting.fit.judge.lone_lines import LoneLines
-from disting.fit.judge.practical import NoiseModel, Practical, practical
+from disting.statistics.lone_lines import LoneLines
+from disting.statistics.practical import NoiseModel, Practical, practical
 from disting.fit.judge.structural import with_structure
-from disting.fit.noise.covariance import expected_deviation
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.covariance import expected_deviation
+from disting.statistics.scatter import Scatter
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import comparable
 from disting.fit.search.data import WhitenedCost

@@ -32,8 +32,8 @@ from disting.fit.judge.explanation import (
     noises,
 )
 from disting.fit.judge.larger import left_with_contained
-from disting.fit.judge.lone_lines import LoneLines
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.lone_lines import LoneLines
+from disting.statistics.scatter import Scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine

@@ -32,9 +32,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2, f as f_distribution
 
-from disting.fit.judge.lone_lines import LoneLines, lone_lines
-from disting.fit.judge.practical import NoiseModel
-from disting.fit.noise.covariance import VANISHING
+from disting.statistics.lone_lines import LoneLines, lone_lines
+from disting.statistics.practical import NoiseModel
+from disting.statistics.covariance import VANISHING
 from disting.fit.search.containment import contains
 from disting.fit.search.starts import bare
 from disting.measurement.arrays import Real

@@ -44,8 +44,8 @@ from math import degrees, inf, isfinite, pi
 import numpy as np
 from scipy.stats import chi2 as chi2_distribution, f as f_distribution, norm
 
-from disting.fit.noise.covariance import Noise, correlation, noise
-from disting.fit.noise.scatter import Scatter, change, scatter, widen
+from disting.statistics.covariance import Noise, correlation, noise
+from disting.statistics.scatter import Scatter, change, scatter, widen
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse

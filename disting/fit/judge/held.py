@@ -19,7 +19,7 @@ import numpy as np
 
 from disting.fit.judge.exclusion import limit
 from disting.fit.judge.mechanics import mechanics
-from disting.fit.noise.scatter import Scatter, scatter
+from disting.statistics.scatter import Scatter, scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine

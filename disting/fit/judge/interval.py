@@ -28,9 +28,9 @@ from scipy.stats import t as t_distribution
 from disting.fit.judge.admissible import FROM_ZERO
 from disting.fit.judge.candidate import OUTSIDE, Candidate, values_of
 from disting.fit.judge.exclusion import FELT, limit
-from disting.fit.judge.practical import covariance
-from disting.fit.noise.covariance import equal
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.practical import covariance
+from disting.statistics.covariance import equal
+from disting.statistics.scatter import Scatter
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task

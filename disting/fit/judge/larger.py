@@ -14,7 +14,7 @@ import numpy as np
 
 from disting.fit.judge.candidate import Candidate, Scatters, judge, values_of
 from disting.fit.judge.exclusion import Exclusion
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.scatter import Scatter
 from disting.fit.search.containment import contains
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine

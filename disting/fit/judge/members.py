@@ -22,8 +22,8 @@ from disting.fit.judge.candidate import Candidate, Scatters, at_other_values
 from disting.fit.judge.explanation import merge, noises, scatters
 from disting.fit.judge.interval import Interval, intervals
 from disting.fit.judge.joint_verdicts import behaves_alike
-from disting.fit.judge.practical import practical
-from disting.fit.noise.covariance import expected_deviation
+from disting.statistics.practical import practical
+from disting.statistics.covariance import expected_deviation
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.containment import contains
 from disting.fit.search.descent import fine

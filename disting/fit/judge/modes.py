@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import eig
 
 from disting.fit.judge.candidate import Candidate
-from disting.fit.judge.practical import standard_errors
+from disting.statistics.practical import standard_errors
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Complex, Real
 from disting.model.structure import Structure

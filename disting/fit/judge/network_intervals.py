@@ -20,7 +20,7 @@ from scipy.stats import t as t_distribution
 from disting.fit.judge.candidate import OUTSIDE
 from disting.fit.judge.exclusion import FELT, limit
 from disting.fit.judge.interval import ITERATIONS, STEP, STEPS, STRAIGHT, Interval
-from disting.fit.judge.practical import NoiseModel
+from disting.statistics.practical import NoiseModel
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import Box, rough
 from disting.fit.search.network_plant import AnyNetworkPlant

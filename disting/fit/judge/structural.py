@@ -14,7 +14,7 @@ from dataclasses import replace
 from math import inf
 
 from disting.experiments.machine_model import rank_by
-from disting.fit.judge.practical import Practical
+from disting.statistics.practical import Practical
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import measured_chain

@@ -9,8 +9,8 @@ from disting.files import Format
 from disting.fit.judge.explanation import FEW_CLEAR, Miss
 from disting.fit.judge.interval import Interval
 from disting.fit.judge.network_twins import NetworkTwin, intervals_to_dict
-from disting.fit.judge.practical import NoiseModel
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.practical import NoiseModel
+from disting.statistics.scatter import Scatter
 from disting.fit.search.cost import comparable
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real

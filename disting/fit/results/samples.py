@@ -21,7 +21,7 @@ import numpy as np
 from disting.fit.judge.candidate import OUTSIDE, Candidate
 from disting.fit.judge.exclusion import limit
 from disting.fit.judge.members import Member, Twin
-from disting.fit.judge.practical import NoiseModel
+from disting.statistics.practical import NoiseModel
 from disting.fit.search.cost import SquaredCost
 from disting.fit.search.descent import rough
 from disting.fit.search.estimate import Task

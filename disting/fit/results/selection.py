@@ -25,7 +25,7 @@ from disting.fit.judge.alternatives import Alternative
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.members import Member
-from disting.fit.judge.practical import Thresholds, standard_errors
+from disting.statistics.practical import Thresholds, standard_errors
 from disting.fit.judge.quantity import QuantityReading, question
 from disting.fit.judge.readings import Reading
 from disting.fit.results.loop import Controller

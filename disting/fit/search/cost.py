@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.scatter import Scatter
 from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse

@@ -17,7 +17,7 @@ from itertools import compress
 import numpy as np
 
 from disting.errors import InputError
-from disting.fit.noise.scatter import LEAST, Scatter, change, scatter, widen
+from disting.statistics.scatter import LEAST, Scatter, change, scatter, widen
 from disting.fit.search.cost import Cost, SquaredCost
 from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.fit.search.setup import Setup

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.scatter import Scatter
 from disting.fit.search.cost import Case, Cost, SquaredCost
 from disting.fit.search.plant import Motion, Plant
 from disting.fit.search.setup import Setup, measurable

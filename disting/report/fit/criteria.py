@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.fit.judge.candidate import Candidate
-from disting.fit.judge.practical import Thresholds
+from disting.statistics.practical import Thresholds
 from disting.fit.results.selection import CRITERIA, Selection, Sweep, sweep
 from disting.measurement.arrays import Real
 from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from disting.errors import enumeration
 from disting.experiments.menu import Item
 from disting.fit.judge.admissible import KNOWN, UNDETERMINED
-from disting.fit.plan.fit_file import FitRecord
-from disting.fit.plan.next_experiment import Predictions
-from disting.fit.plan.sample import POWER
+from disting.planning.fit_file import FitRecord
+from disting.planning.next_experiment import Predictions
+from disting.planning.sample import POWER
 from disting.fit.search.candidates import reference
 from disting.fit.search.containment import contains
 from disting.report.fit.left_words import ChainAdvice, cheapest_first

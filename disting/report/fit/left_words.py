@@ -8,9 +8,9 @@ from typing import Any
 from disting.experiments.menu import Costs, Item
 from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.plan.fit_file import FitRecord, Survivor
-from disting.fit.plan.next_experiment import Predictions, Reason, Step, Stood
-from disting.fit.plan.sample import POWER
+from disting.planning.fit_file import FitRecord, Survivor
+from disting.planning.next_experiment import Predictions, Reason, Step, Stood
+from disting.planning.sample import POWER
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.containment import contains
 from disting.model.chain import LEGEND, Chain, text_drawing

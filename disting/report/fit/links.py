@@ -20,7 +20,7 @@ from disting.model.chain import Chain
 from disting.model.names import damping_option
 
 if TYPE_CHECKING:  # a fit without a plan has no use for what plans
-    from disting.fit.plan.power import Plan
+    from disting.planning.power import Plan
 
 PURPOSES = {
     "compare": "Whether an experiment tells them apart, and why:",
@@ -202,7 +202,7 @@ def named_with_values(
 
 def plan_command(plan: "Plan") -> str:
     """The command for one pair."""
-    from disting.fit.plan.power import typical  # whoever has a plan has imported it
+    from disting.planning.power import typical  # whoever has a plan has imported it
 
     size = typical(plan.rival.rho) if plan.rival else 0.02
     lines = ""

@@ -8,8 +8,8 @@ from math import ceil
 import numpy as np
 
 from disting.fit.judge.exclusion import FELT
-from disting.fit.judge.practical import standard_errors
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.practical import standard_errors
+from disting.statistics.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.results.selection import Confidence
 from disting.fit.search.network_plant import network_plant

@@ -7,12 +7,12 @@ from math import ceil, floor, sqrt
 import numpy as np
 
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.plan.design import Design
-from disting.fit.plan.fit_file import FitRecord, NamedNetworks
-from disting.fit.plan.power import Answer, Plan, is_trusted, typical
-from disting.fit.plan.rival import Limit, Rival
-from disting.fit.plan.sample import POWER
-from disting.fit.plan.search import AnyStructure, name_of
+from disting.planning.design import Design
+from disting.planning.fit_file import FitRecord, NamedNetworks
+from disting.planning.power import Answer, Plan, is_trusted, typical
+from disting.planning.rival import Limit, Rival
+from disting.planning.sample import POWER
+from disting.planning.search import AnyStructure, name_of
 from disting.fit.search.candidates import reference
 from disting.model.chain import Chain, text_drawing
 from disting.model.structure import Sort

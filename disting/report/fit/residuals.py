@@ -2,7 +2,7 @@
 where the model misses.
 
 With G measured and G_m fitted, ln |G / G_m| and arg (G / G_m) of each line; a line that only
-scatters lies within +-1.96 rho of the model with 95 % (`disting.fit.noise.scatter`), the model
+scatters lies within +-1.96 rho of the model with 95 % (`disting.statistics.scatter`), the model
 itself within its band about zero (`disting.fit.results.selection`).
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from disting.fit.judge.explanation import Miss
 from disting.fit.judge.members import QUANTILE
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.scatter import Scatter
 from disting.fit.results.selection import Confidence, Selection, confidence, response_of
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real

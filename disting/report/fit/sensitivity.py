@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.fit.judge.candidate import Candidate
-from disting.fit.judge.practical import Thresholds, collinearity_by_subset
+from disting.statistics.practical import Thresholds, collinearity_by_subset
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Real
 from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic

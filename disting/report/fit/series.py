@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.fit.judge.candidate import Candidate
-from disting.fit.noise.scatter import Scatter, scatter
+from disting.statistics.scatter import Scatter, scatter
 from disting.fit.results.selection import response_of
 from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse

@@ -12,9 +12,9 @@ import numpy as np
 from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import undetermined
 from disting.fit.judge.modes import Result, physical
-from disting.fit.plan.design import Design, designed_to_dict
-from disting.fit.plan.power import Plan, typical
-from disting.fit.results.export import NumberedStructure
+from disting.planning.design import Design, designed_to_dict
+from disting.planning.power import Plan, typical
+from disting.export import NumberedStructure
 from disting.fit.results.selection import Profile, Selection, profile
 from disting.fit.search.candidates import reference as name_of
 from disting.measurement import FrequencyResponse

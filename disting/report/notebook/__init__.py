@@ -11,8 +11,8 @@ import numpy as np
 
 from disting.algebra.notation import Expr
 from disting.behaviour.expansion import transfer_function
-from disting.fit.noise.scatter import scatter
-from disting.fit.results.export import state_space, to_control
+from disting.statistics.scatter import scatter
+from disting.export import state_space, to_control
 from disting.fit.search.data import check_range
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain

@@ -14,7 +14,7 @@ from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
 from disting.fit import Candidate, Selection
 from disting.fit.judge.explanation import Level
-from disting.fit.plan.power import Plan, is_trusted
+from disting.planning.power import Plan, is_trusted
 from disting.fit.search.candidates import reference
 from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
 from disting.measurement import FrequencyResponse, Look

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from disting.fit.judge.admissible import Rule
-from disting.fit.judge.practical import Thresholds
-from disting.fit.results.export import predict
+from disting.statistics.practical import Thresholds
+from disting.export import predict
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.select import select

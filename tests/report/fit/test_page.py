@@ -12,7 +12,7 @@ import pytest
 from disting.errors import InputError
 from disting.files import __version__
 from disting.fit.judge.modes import physical
-from disting.fit.judge.practical import Thresholds
+from disting.statistics.practical import Thresholds
 from disting.fit.results.model_file import read_model
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from disting.fit.noise.scatter import Scatter
-from disting.fit.results.export import predict
+from disting.statistics.scatter import Scatter
+from disting.export import predict
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.select import select

@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.stats import f as f_distribution
 
-from disting.fit.noise.line_variance import (
+from disting.statistics.line_variance import (
     LARGEST_LEFT_OUT,
     Contrasts,
     coefficients,

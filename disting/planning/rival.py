@@ -30,8 +30,8 @@ import numpy as np
 from disting.errors import InputError
 from disting.fit.judge.exclusion import basis_of, statistic
 from disting.fit.networks import BestFit
-from disting.fit.noise.covariance import Noise
-from disting.fit.plan.search import (
+from disting.statistics.covariance import Noise
+from disting.planning.search import (
     AnyPlant,
     AnyStructure,
     Search,

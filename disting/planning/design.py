@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from disting.fit.plan.power import Answer, Plan, plan_to_dict
-from disting.fit.plan.spectrum import Adversary, Band, Spectrum, best_band, optimal, runnable
+from disting.planning.power import Answer, Plan, plan_to_dict
+from disting.planning.spectrum import Adversary, Band, Spectrum, best_band, optimal, runnable
 from disting.measurement.arrays import Real
 from disting.model.presentation import plural, summary
 from disting.simulation import Excitation

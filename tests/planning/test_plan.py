@@ -9,7 +9,7 @@ from scipy.stats import chi2, ncx2, norm
 
 from disting.errors import InputError
 from disting.fit import select
-from disting.fit.plan.power import (
+from disting.planning.power import (
     LEVEL,
     POWER,
     Answer,
@@ -19,9 +19,9 @@ from disting.fit.plan.power import (
     typical,
     union,
 )
-from disting.fit.plan.rival import Trust, fitted_rival, gain
-from disting.fit.plan.sample import Sample, ideal, simulate
-from disting.fit.results.export import predict
+from disting.planning.rival import Trust, fitted_rival, gain
+from disting.planning.sample import Sample, ideal, simulate
+from disting.export import predict
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family

@@ -30,9 +30,9 @@ from typing import Any
 from disting.conditions.inclusion import Inclusion
 from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL, surplus, trials, union
-from disting.fit.plan.rival import Rival, Trust, fitted_rival
-from disting.fit.plan.sample import POWER, Sample, ideal, simulate
-from disting.fit.plan.search import AnyStructure, name_of, sensor_of, shown_as
+from disting.planning.rival import Rival, Trust, fitted_rival
+from disting.planning.sample import POWER, Sample, ideal, simulate
+from disting.planning.search import AnyStructure, name_of, sensor_of, shown_as
 from disting.fit.search.containment import contains
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain

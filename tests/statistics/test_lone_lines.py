@@ -15,8 +15,8 @@ from disting.fit.judge.explanation import (
     needed_lines,
     noise_limit,
 )
-from disting.fit.judge.lone_lines import lone_lines
-from disting.fit.noise.scatter import Scatter
+from disting.statistics.lone_lines import lone_lines
+from disting.statistics.scatter import Scatter
 from disting.measurement import FrequencyResponse, read
 from disting.model.chain import Chain
 from tests.fit.drives import dense_response, response

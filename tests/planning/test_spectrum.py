@@ -5,10 +5,10 @@ single lines.
 import numpy as np
 import pytest
 
-from disting.fit.plan.design import design
-from disting.fit.plan.power import plan
-from disting.fit.plan.rival import relative_distance
-from disting.fit.plan.spectrum import (
+from disting.planning.design import design
+from disting.planning.power import plan
+from disting.planning.rival import relative_distance
+from disting.planning.spectrum import (
     CLOSE,
     KEPT,
     Adversary,
@@ -21,7 +21,7 @@ from disting.fit.plan.spectrum import (
 from disting.fit.search.descent import Box, fine
 from disting.model.chain import Chain
 from disting.network import network_of
-from tests.fit.test_plan import MODEL, OMEGA, RIVAL, VALUES, alike
+from tests.planning.test_plan import MODEL, OMEGA, RIVAL, VALUES, alike
 
 THREE = {"m1": 0.0045, "m2": 0.005, "m3": 0.003, "k12": 550.0, "k23": 800.0}
 THREE |= {"d12": 0.08, "d23": 0.05, "b1": 0.1}

@@ -24,8 +24,8 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import linprog
 
-from disting.fit.plan.rival import Rival, relative_distance, reweight
-from disting.fit.plan.search import box_of
+from disting.planning.rival import Rival, relative_distance, reweight
+from disting.planning.search import box_of
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import different
 from disting.fit.search.joint import AnyCost

@@ -20,9 +20,9 @@ from disting.fit.judge.exclusion import (
     statistic,
     surplus,
 )
-from disting.fit.noise.covariance import Noise
-from disting.fit.noise.line_variance import coefficients
-from disting.fit.noise.scatter import change, scatter
+from disting.statistics.covariance import Noise
+from disting.statistics.line_variance import coefficients
+from disting.statistics.scatter import change, scatter
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.data import WhitenedCost
 from disting.measurement import FrequencyResponse, TimeSeries, mean_of

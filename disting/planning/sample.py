@@ -19,8 +19,8 @@ from scipy.optimize import brentq
 from scipy.stats import ncx2
 
 from disting.fit.judge.exclusion import LEVEL, basis_of, limit
-from disting.fit.noise.scatter import Scatter, scatter
-from disting.fit.plan.rival import Rival
+from disting.statistics.scatter import Scatter, scatter
+from disting.planning.rival import Rival
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 

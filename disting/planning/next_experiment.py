@@ -32,8 +32,8 @@ import numpy as np
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.menu import Costs, Gain, Item, gain
 from disting.fit.judge.exclusion import LEVEL, surplus, trials
-from disting.fit.plan.fit_file import FitRecord, Survivor
-from disting.fit.plan.power import power
+from disting.planning.fit_file import FitRecord, Survivor
+from disting.planning.power import power
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import Parameters
 from disting.measurement.arrays import Complex, Real

@@ -8,9 +8,9 @@ from scipy.optimize import minimize
 from scipy.stats import chi2
 
 from disting.errors import InputError
-from disting.fit.plan.power import LEVEL, Answer, plan
-from disting.fit.plan.rival import Trust, gain
-from disting.fit.plan.spectrum import Adversary
+from disting.planning.power import LEVEL, Answer, plan
+from disting.planning.rival import Trust, gain
+from disting.planning.spectrum import Adversary
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.network import network_of
