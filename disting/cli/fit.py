@@ -18,7 +18,6 @@ from disting.cli.workers import Work, announce, cores, engine_for
 from disting.errors import InputError, enumeration, printable
 from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import Rule
-from disting.statistics.practical import Thresholds
 from disting.fit.judge.reading import read_in_words
 from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.selection import Selection
@@ -30,11 +29,12 @@ from disting.measurement.response import NO_MOTION
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report.fit.selection_json import selection_to_dict
+from disting.statistics.practical import Thresholds
 
 # what few runs need is imported where options name it: an earlier fit, a swarm, files of models
 if TYPE_CHECKING:
-    from disting.planning.fit_file import FitRecord
     from disting.fit.search.estimate import Method
+    from disting.planning.fit_file import FitRecord
 
 WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
 SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`

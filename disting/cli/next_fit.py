@@ -11,10 +11,10 @@ from disting.cli.output import complain
 from disting.errors import InputError, enumeration
 from disting.experiments.menu import Costs
 from disting.files import Format
-from disting.planning.fit_file import FitRecord, is_of_networks, left_by, named_by
-from disting.planning.next_experiment import bench_of, predictions, stood
 from disting.fit.results.networks import BAR
 from disting.network.network import Network
+from disting.planning.fit_file import FitRecord, is_of_networks, left_by, named_by
+from disting.planning.next_experiment import bench_of, predictions, stood
 from disting.report.fit.left_first import first_sentence, repeat_command
 from disting.report.fit.left_words import (
     MEASURED_COLUMNS,

@@ -14,8 +14,13 @@ from disting.cli.output import complain, emit
 from disting.cli.workers import engine_for
 from disting.errors import InputError, printable
 from disting.files import Format, json_text
-from disting.statistics.scatter import scatter
-from disting.planning.design import Design, design, designed_to_dict
+from disting.fit.search.containment import contains
+from disting.fit.search.starts import Parameters
+from disting.measurement import read
+from disting.measurement.arrays import Real
+from disting.measurement.impedance import as_impedance
+from disting.model.names import damping_option
+from disting.model.structure import Sort
 from disting.planning.fit_file import (
     FitRecord,
     NamedNetworks,
@@ -24,17 +29,12 @@ from disting.planning.fit_file import (
     networks_named_by,
 )
 from disting.planning.power import Answer, Plan, plan, plan_to_dict
-from disting.planning.search import AnyStructure, name_of, responses_of, sensor_of
-from disting.fit.search.containment import contains
-from disting.fit.search.starts import Parameters
-from disting.measurement import read
-from disting.measurement.arrays import Real
-from disting.measurement.impedance import as_impedance
-from disting.model.names import damping_option
-from disting.model.structure import Sort
+from disting.planning.rival import AnyStructure, name_of, responses_of, sensor_of
+from disting.planning.spectrum import Design, design, designed_to_dict
 from disting.report.fit.plan_page import write_plans
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.write import write_plan
+from disting.statistics.scatter import scatter
 
 AnyNamed = FitRecord | NamedNetworks
 LINES = 120

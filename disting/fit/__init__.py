@@ -115,6 +115,17 @@ What to measure next:
 from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
+    from disting.export import (
+        NumberedStructure as NumberedStructure,
+        control_script as control_script,
+        predict as predict,
+        read_model as read_model,
+        state_space as state_space,
+        to_control as to_control,
+        to_control_transfer_function as to_control_transfer_function,
+        write_mat as write_mat,
+        zero_pole as zero_pole,
+    )
     from disting.fit.judge.admissible import Rule as Rule
     from disting.fit.judge.alternatives import Alternative as Alternative
     from disting.fit.judge.candidate import Candidate as Candidate
@@ -130,37 +141,13 @@ if TYPE_CHECKING:
         poles as poles,
         zeros as zeros,
     )
-    from disting.statistics.practical import (
-        Practical as Practical,
-        Thresholds as Thresholds,
-        collinearity_index as collinearity_index,
-        condition_indices as condition_indices,
-        importance as importance,
-        practical as practical,
-    )
     from disting.fit.judge.quantity import QuantityReading as QuantityReading
     from disting.fit.judge.readings import Reading as Reading
-    from disting.statistics.covariance import Noise as Noise
-    from disting.statistics.scatter import Scatter as Scatter
-    from disting.planning.design import Design as Design, design as design
-    from disting.planning.power import Plan as Plan, plan as plan
-    from disting.planning.rival import Rival as Rival, gain as gain
-    from disting.export import (
-        NumberedStructure as NumberedStructure,
-        control_script as control_script,
-        predict as predict,
-        state_space as state_space,
-        to_control as to_control,
-        to_control_transfer_function as to_control_transfer_function,
-        write_mat as write_mat,
-        zero_pole as zero_pole,
-    )
     from disting.fit.results.loop import (
         Controller as Controller,
         Margins as Margins,
         margins as margins,
     )
-    from disting.fit.results.model_file import read_model as read_model
     from disting.fit.results.reliance import Statement as Statement
     from disting.fit.results.selection import (
         Confidence as Confidence,
@@ -194,5 +181,18 @@ if TYPE_CHECKING:
     from disting.fit.search.plant import Plant as Plant
     from disting.fit.search.setup import Setup as Setup
     from disting.fit.select import select as select
+    from disting.planning.power import Plan as Plan, plan as plan
+    from disting.planning.rival import Rival as Rival, gain as gain
+    from disting.planning.spectrum import Design as Design, design as design
+    from disting.statistics.covariance import Noise as Noise
+    from disting.statistics.practical import (
+        Practical as Practical,
+        Thresholds as Thresholds,
+        collinearity_index as collinearity_index,
+        condition_indices as condition_indices,
+        importance as importance,
+        practical as practical,
+    )
+    from disting.statistics.scatter import Scatter as Scatter
 
 offer(__name__)

@@ -23,8 +23,6 @@ from disting.fit.judge.exclusion import CLEARLY, basis_of, limit, statistic
 from disting.fit.judge.explanation import Level, explain, merge, needed_lines, noises, scatters
 from disting.fit.judge.network_intervals import deviations, network_intervals
 from disting.fit.judge.network_twins import NetworkTwin, twin_at, without_noise
-from disting.statistics.covariance import expected_deviation
-from disting.statistics.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.containment import limit_of
 from disting.fit.search.cost import Case, Cost, comparable
@@ -45,6 +43,8 @@ from disting.measurement.arrays import Real
 from disting.measurement.response import NO_MOTION
 from disting.model.structure import Sort
 from disting.network.network import Network
+from disting.statistics.covariance import expected_deviation
+from disting.statistics.scatter import Scatter
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View

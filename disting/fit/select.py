@@ -29,7 +29,6 @@ from disting.fit.judge.joint_verdicts import (
 )
 from disting.fit.judge.larger import check_left, searched_again
 from disting.fit.judge.members import Member, members
-from disting.statistics.practical import Thresholds
 from disting.fit.judge.quantity import quantity_readings
 from disting.fit.judge.readings import Reading, better_sign, pilot, readings
 from disting.fit.results.loop import Controller
@@ -45,6 +44,7 @@ from disting.measurement.arrays import Real
 from disting.measurement.assumptions import as_shown
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.question import Settings
+from disting.statistics.practical import Thresholds
 from disting.store import Store
 from disting.verdict.engine import Engine, Progress, silent
 

@@ -15,15 +15,15 @@ from typing import Any
 import numpy as np
 
 from disting.errors import InputError, enumeration
-from disting.files import Format, read_json
-from disting.fit.judge.explanation import STATUS, Level
-from disting.fit.results.model_file import (
+from disting.export import (
     FIT_FILE,
     chain_from_dict,
     model_from_dict,
     number_of,
     refuse_open_quantity,
 )
+from disting.files import Format, read_json
+from disting.fit.judge.explanation import STATUS, Level
 from disting.fit.results.networks import BAR
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.containment import contains

@@ -32,14 +32,14 @@ import numpy as np
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.menu import Costs, Gain, Item, gain
 from disting.fit.judge.exclusion import LEVEL, surplus, trials
-from disting.planning.fit_file import FitRecord, Survivor
-from disting.planning.power import power
 from disting.fit.search.plant import Plant
 from disting.fit.search.starts import Parameters
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
 from disting.model.question import Settings
+from disting.planning.fit_file import FitRecord, Survivor
+from disting.planning.power import power
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation

@@ -9,7 +9,6 @@ import numpy as np
 from disting.errors import InputError
 from disting.files import __version__, json_text, write_whole
 from disting.fit.judge.members import QUANTILE
-from disting.statistics.scatter import Scatter, scatter
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.measurement.arrays import Real
 from disting.measurement.column_words import Role
@@ -28,6 +27,7 @@ from disting.report.fit.style import (
     over_frequency,
 )
 from disting.report.fit.words import response_unit, typeset
+from disting.statistics.scatter import Scatter, scatter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -16,12 +16,12 @@ from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
+from disting.fit.results.export import predict
 from markupsafe import Markup
 
 from disting import Catalog, Decisions, Family, Relation, View
 from disting.catalogs.dampers import DamperTable, spell
 from disting.fit.judge.modes import physical
-from disting.fit.results.export import predict
 from disting.measurement.arrays import Complex
 from disting.report.fit import bode, models_by_threshold, parameters_by_threshold
 from disting.report.fit.style import (

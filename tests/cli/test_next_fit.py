@@ -7,10 +7,10 @@ from math import pi
 
 import pytest
 
-from disting.planning.fit_file import named_by
-from disting.planning.next_experiment import bench_of, predictions
 from disting.model.chain import Chain
 from disting.model.kinds import SENSOR
+from disting.planning.fit_file import named_by
+from disting.planning.next_experiment import bench_of, predictions
 from tests.cli.process import called
 from tests.fit.drives import truth
 from tests.fit.test_predictions import FREE, VALUES, fit_file, member, twin_values

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disting.fit import select
-from disting.planning.power import plan
 from disting.export import predict
+from disting.fit import select
 from disting.measurement import FrequencyResponse, read, write_csv
 from disting.model.chain import Chain
+from disting.planning.power import plan
 from disting.report.fit import selection_to_dict
 from tests.cli.process import called
 from tests.fit.drives import response

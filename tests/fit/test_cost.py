@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.statistics.practical import condition_indices, importance
 from disting.fit.search.cost import Case, Cost, lines_by_coherence, lines_by_deviation
 from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.statistics.practical import condition_indices, importance
 from tests.fit.drives import CHAINS, OMEGA, response, truth
 
 

@@ -19,7 +19,6 @@ from disting.fit.judge.explanation import (
     systematic_share,
     yardsticks,
 )
-from disting.statistics.scatter import change, scatter
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
@@ -30,6 +29,7 @@ from disting.model.chain import Chain, Sensor
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
 from disting.simulation import Bench, Friction, simulate
+from disting.statistics.scatter import change, scatter
 from tests.fit.drives import OMEGA, bench, response, truth
 from tests.fit.monte_carlo import drive as bench_drive, measured as bench_data, truth as bench_truth
 

@@ -6,18 +6,19 @@ import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.judge.modes import oscillations, poles, zeros
 from disting.export import (
     NumberedStructure,
     control_script,
+    model_from_dict,
     predict,
+    read_model,
     state_space,
     to_control,
     to_control_transfer_function,
     write_mat,
     zero_pole,
 )
-from disting.fit.results.model_file import model_from_dict, read_model
+from disting.fit.judge.modes import oscillations, poles, zeros
 from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.report.fit.selection_json import candidate_to_dict

@@ -11,7 +11,6 @@ import pytest
 from disting.fit import confidence, fit_percent, select
 from disting.fit.judge.candidate import judge, observed_scatters
 from disting.fit.judge.members import QUANTILE
-from disting.statistics.practical import covariance
 from disting.fit.results.selection import response_of
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
@@ -19,6 +18,7 @@ from disting.fit.search.estimate import Estimate, Task
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.question import Settings
+from disting.statistics.practical import covariance
 from tests.fit.drives import response
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")

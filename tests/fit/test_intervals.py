@@ -10,15 +10,15 @@ from scipy.optimize import minimize
 from scipy.stats import f as f_distribution
 
 from disting.fit.judge.members import QUANTILE, disagreements
-from disting.statistics.practical import covariance, practical
-from disting.statistics.covariance import Noise, correlation, equal, expected_deviation, noise
-from disting.statistics.scatter import scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.statistics.covariance import Noise, correlation, equal, expected_deviation, noise
+from disting.statistics.practical import covariance, practical
+from disting.statistics.scatter import scatter
 from tests.fit.drives import OMEGA, response
 from tests.fit.monte_carlo import (
     drive as bench_drive,

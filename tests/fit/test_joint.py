@@ -19,8 +19,6 @@ from disting.fit.judge.joint_verdicts import (
     under_all,
 )
 from disting.fit.judge.members import QUANTILE
-from disting.statistics.practical import covariance
-from disting.statistics.covariance import expected_deviation
 from disting.fit.search.cost import Case, Cost, lines_by_deviation
 from disting.fit.search.data import Weights
 from disting.fit.search.descent import fine
@@ -30,6 +28,8 @@ from disting.fit.search.setup import Setup, measured_chain
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain, Sensor
+from disting.statistics.covariance import expected_deviation
+from disting.statistics.practical import covariance
 from disting.store import Store
 from disting.verdict.engine import Engine
 from disting.verdict.result import Relation

@@ -11,8 +11,6 @@ from disting.fit.judge.admissible import Rule
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.mechanics import fold
 from disting.fit.judge.members import Member
-from disting.statistics.practical import Practical, Thresholds
-from disting.statistics.covariance import Noise
 from disting.fit.search.candidates import figure_1, reference
 from disting.fit.search.estimate import Estimate
 from disting.fit.select import select
@@ -23,6 +21,8 @@ from disting.report.fit.answer import list_lines, list_structures
 from disting.report.fit.mechanics_words import fold_names, headline, structure_in_words
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
+from disting.statistics.covariance import Noise
+from disting.statistics.practical import Practical, Thresholds
 from tests.fit.drives import OMEGA, response
 
 

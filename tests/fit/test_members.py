@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from disting.export import predict
 from disting.fit.judge.admissible import Rule, undetermined_sentence
 from disting.fit.judge.alternatives import limits_of
 from disting.fit.judge.candidate import observed_scatters
 from disting.fit.judge.members import members, twins
-from disting.statistics.practical import Thresholds
-from disting.export import predict
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.select import select
 from disting.model.chain import Chain
@@ -25,6 +24,7 @@ from disting.model.symmetry import forms
 from disting.report.fit.links import commands, new_names
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines
+from disting.statistics.practical import Thresholds
 from tests.fit.drives import OMEGA, response
 
 ROW = Chain(3, damped=True)

@@ -9,12 +9,12 @@ import pytest
 
 from disting import InputError, Sensor
 from disting.fit.networks import _excluding, fit_networks
-from disting.statistics.covariance import Noise, expected_deviation
 from disting.fit.search.network_plant import NetworkPlant, NetworkPlants
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse, read, write_csv
 from disting.network import Network, network_of
 from disting.network.families import family_of
+from disting.statistics.covariance import Noise, expected_deviation
 from tests.cli.process import called
 
 DATA = Path(__file__).parents[2].parent / "shared" / "data" / "eis"

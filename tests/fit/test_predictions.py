@@ -8,6 +8,10 @@ import pytest
 
 from disting.equivalence import equivalents
 from disting.experiments.menu import Costs, Item
+from disting.export import predict
+from disting.model.chain import Chain
+from disting.model.family import Family
+from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR
 from disting.planning.fit_file import named_by
 from disting.planning.next_experiment import (
     MOVES,
@@ -21,10 +25,6 @@ from disting.planning.next_experiment import (
     stood,
 )
 from disting.planning.power import power
-from disting.export import predict
-from disting.model.chain import Chain
-from disting.model.family import Family
-from disting.model.kinds import BRAKE, FORCE, INERTIA, LOCK, SENSOR
 from disting.report.fit.selection_json import _named
 from disting.verdict.engine import Engine
 from tests.fit.drives import dense_response, truth

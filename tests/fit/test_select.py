@@ -10,11 +10,9 @@ import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from disting.errors import InputError
+from disting.export import model_from_dict, predict
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.modes import oscillations, physical, poles, zeros
-from disting.statistics.practical import Thresholds
-from disting.export import predict
-from disting.fit.results.model_file import model_from_dict
 from disting.fit.results.selection import CRITERIA, profile, sweep
 from disting.fit.search.candidates import figure_1, variants
 from disting.fit.search.containment import contains
@@ -22,6 +20,7 @@ from disting.fit.search.cost import lines_by_deviation
 from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.report.fit.selection_json import selection_to_dict
+from disting.statistics.practical import Thresholds
 from disting.verdict.result import Relation
 from tests.fit.drives import OMEGA, bench, response
 

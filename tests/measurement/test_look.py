@@ -12,11 +12,11 @@ from jsonschema import Draft202012Validator
 
 from disting.errors import InputError
 from disting.files import Format, schema
-from disting.statistics.scatter import scatter
 from disting.measurement import in_si, look, read
 from disting.measurement.column_words import Role, Why
 from disting.measurement.excitation import Excitation, excitation, moving_share
 from disting.measurement.look_text import look_lines, short_lines
+from disting.statistics.scatter import scatter
 from tests.measurement.bench_data import DATA, measured_data
 
 RATE, PERIOD = 1000.0, 1000

@@ -7,13 +7,13 @@ import pytest
 import scipy.signal
 
 from disting.errors import InputError
-from disting.statistics.scatter import scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import Setup
 from disting.measurement import TimeSeries, mean_of
 from disting.measurement.window import Window, line_weights
 from disting.model.chain import Chain
+from disting.statistics.scatter import scatter
 from tests.fit.monte_carlo import drive, measured, response_at, truth
 from tests.measurement.test_time_series import RATE, resonance
 

@@ -8,14 +8,14 @@ import numpy as np
 
 from disting import Chain
 from disting.fit import Case, Cost, Plant, figure_1
+from disting.fit.results.selection import CRITERIA, sweep
+from disting.measurement import FrequencyResponse
 from disting.statistics.practical import (
     collinearity_index,
     condition_indices,
     importance,
     unit_columns,
 )
-from disting.fit.results.selection import CRITERIA, sweep
-from disting.measurement import FrequencyResponse
 from tests.paper.claim import Claim, Findings, Observed, name_list
 
 SAMPLE = np.array([[3.0, 1.0], [4.0, 2.0], [0.0, 2.0]])  # columns of lengths 5 and 3

@@ -8,23 +8,25 @@ from scipy.optimize import minimize
 from scipy.stats import chi2, ncx2, norm
 
 from disting.errors import InputError
+from disting.export import predict
 from disting.fit import select
+from disting.measurement import FrequencyResponse
+from disting.model.chain import Chain
+from disting.model.family import Family
 from disting.planning.power import (
     LEVEL,
     POWER,
     Answer,
+    Sample,
+    ideal,
     plan,
     power,
+    simulate,
     surplus,
     typical,
     union,
 )
 from disting.planning.rival import Trust, fitted_rival, gain
-from disting.planning.sample import Sample, ideal, simulate
-from disting.export import predict
-from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain
-from disting.model.family import Family
 from disting.report.fit.plan_words import plan_in_words
 from disting.verdict.result import Relation
 from tests.fit.monte_carlo import Drive, measured, true_scatter

@@ -8,13 +8,13 @@ from scipy.optimize import minimize
 from scipy.stats import chi2
 
 from disting.errors import InputError
-from disting.planning.power import LEVEL, Answer, plan
-from disting.planning.rival import Trust, gain
-from disting.planning.spectrum import Adversary
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.network import network_of
 from disting.network.chains import of_chain
+from disting.planning.power import LEVEL, Answer, plan
+from disting.planning.rival import Trust, gain
+from disting.planning.spectrum import Adversary
 from disting.simulation import frequency_response
 
 MODEL, RIVAL = network_of("R0-p(R1,C1)-p(R2,C2)"), network_of("R0-p(R1,C1)")

@@ -5,7 +5,9 @@ single lines.
 import numpy as np
 import pytest
 
-from disting.planning.design import design
+from disting.fit.search.descent import Box, fine
+from disting.model.chain import Chain
+from disting.network import network_of
 from disting.planning.power import plan
 from disting.planning.rival import relative_distance
 from disting.planning.spectrum import (
@@ -15,12 +17,10 @@ from disting.planning.spectrum import (
     _loose,
     _programme,
     best_band,
+    design,
     optimal,
     runnable,
 )
-from disting.fit.search.descent import Box, fine
-from disting.model.chain import Chain
-from disting.network import network_of
 from tests.planning.test_plan import MODEL, OMEGA, RIVAL, VALUES, alike
 
 THREE = {"m1": 0.0045, "m2": 0.005, "m3": 0.003, "k12": 550.0, "k23": 800.0}

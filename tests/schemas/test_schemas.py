@@ -17,9 +17,6 @@ from disting.errors import InputError
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveEvidence, Share
 from disting.fit.networks import fit_networks
-from disting.planning.next_experiment import Reason
-from disting.planning.power import Answer
-from disting.planning.rival import Limit, Trust
 from disting.fit.search.setup import Setup
 from disting.general.any_model import of_network
 from disting.general.balls import POSITIVE
@@ -29,6 +26,9 @@ from disting.measurement import write_csv
 from disting.model.question import Domain
 from disting.network.families import FAMILIES, family_of
 from disting.network.notation import network_of
+from disting.planning.next_experiment import Reason
+from disting.planning.power import Answer
+from disting.planning.rival import Limit, Trust
 from disting.quantities import Sensor
 from disting.schemas import Format, schema
 from disting.simulation import Bench, demo, simulate

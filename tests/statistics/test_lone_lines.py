@@ -15,10 +15,10 @@ from disting.fit.judge.explanation import (
     needed_lines,
     noise_limit,
 )
-from disting.statistics.lone_lines import lone_lines
-from disting.statistics.scatter import Scatter
 from disting.measurement import FrequencyResponse, read
 from disting.model.chain import Chain
+from disting.statistics.lone_lines import lone_lines
+from disting.statistics.scatter import Scatter
 from tests.fit.drives import dense_response, response
 from tests.measurement.bench_data import measured_data
 

@@ -20,9 +20,6 @@ from disting.fit.judge.exclusion import (
     statistic,
     surplus,
 )
-from disting.statistics.covariance import Noise
-from disting.statistics.line_variance import coefficients
-from disting.statistics.scatter import change, scatter
 from disting.fit.search.cost import Case, Cost
 from disting.fit.search.data import WhitenedCost
 from disting.measurement import FrequencyResponse, TimeSeries, mean_of
@@ -30,6 +27,8 @@ from disting.model.chain import Chain
 from disting.model.question import Settings
 from disting.report.fit.links import commands
 from disting.report.fit.sentences import first_lines, suspicions
+from disting.statistics.covariance import Noise
+from disting.statistics.scatter import change, coefficients, scatter
 from tests.cli.process import called
 from tests.fit.monte_carlo import (
     BENCH,

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from disting.errors import InputError
+from disting.statistics.covariance import equal
 from disting.statistics.practical import (
     Thresholds,
     collinearity_by_subset,
@@ -19,7 +20,6 @@ from disting.statistics.practical import (
     standard_errors,
     worst_direction,
 )
-from disting.statistics.covariance import equal
 from tests.measurement.bench_data import measured_data
 
 # Longley 1967, J. Am. Stat. Assoc. 62, 819-841: GNP deflator, GNP, unemployment, armed forces,

@@ -10,13 +10,13 @@ import pytest
 
 from disting import Experiment, Family, Model, everywhere_file, read_models, verify
 from disting.errors import InputError
-from disting.planning.fit_file import left_by, named_by
-from disting.fit.results.model_file import read_model
+from disting.export import read_model
 from disting.fit.search.candidates import reference
 from disting.general.any_model import of_network
 from disting.network import network_of
 from disting.network.denotation import FREE_NAMES
 from disting.network.notation.entries import entry_of
+from disting.planning.fit_file import left_by, named_by
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Status
 from tests.cli.process import called

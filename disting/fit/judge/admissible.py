@@ -12,8 +12,8 @@ from enum import StrEnum
 
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.modes import Result, physical
-from disting.statistics.practical import Thresholds
 from disting.fit.search.estimate import Task
+from disting.statistics.practical import Thresholds
 
 UNDETERMINED = 10.0  # relative standard error above which a value is called not determined
 FROM_ZERO = 1 / 3  # largest relative standard error of a parameter that is known not to be zero

@@ -22,11 +22,7 @@ from disting.fit.judge.explanation import (
     scatters,
     yardsticks,
 )
-from disting.statistics.lone_lines import LoneLines
-from disting.statistics.practical import NoiseModel, Practical, practical
 from disting.fit.judge.structural import with_structure
-from disting.statistics.covariance import expected_deviation
-from disting.statistics.scatter import Scatter
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import comparable
 from disting.fit.search.data import WhitenedCost
@@ -37,6 +33,10 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.question import Settings
+from disting.statistics.covariance import expected_deviation
+from disting.statistics.lone_lines import LoneLines
+from disting.statistics.practical import NoiseModel, Practical, practical
+from disting.statistics.scatter import Scatter
 
 FOLDS = 5  # of the cross-validation
 FOLD_GAIN = 1e-6  # relative gain of cost at which the fit of a fold ends

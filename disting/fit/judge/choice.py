@@ -32,8 +32,6 @@ from disting.fit.judge.explanation import (
     noises,
 )
 from disting.fit.judge.larger import left_with_contained
-from disting.statistics.lone_lines import LoneLines
-from disting.statistics.scatter import Scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine
@@ -42,6 +40,8 @@ from disting.fit.search.joint import AnyCost
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings
+from disting.statistics.lone_lines import LoneLines
+from disting.statistics.scatter import Scatter
 
 
 def with_akaike_weights(candidates: Sequence[Candidate], task: Task) -> list[Candidate]:

@@ -44,13 +44,13 @@ from math import degrees, inf, isfinite, pi
 import numpy as np
 from scipy.stats import chi2 as chi2_distribution, f as f_distribution, norm
 
-from disting.statistics.covariance import Noise, correlation, noise
-from disting.statistics.scatter import Scatter, change, scatter, widen
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.presentation import summary
+from disting.statistics.covariance import Noise, correlation, noise
+from disting.statistics.scatter import Scatter, change, scatter, widen
 
 # chi2 per line up to which a model explains the data: what a machine does beside being a chain
 LARGEST = 3.0

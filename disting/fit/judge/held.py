@@ -19,13 +19,13 @@ import numpy as np
 
 from disting.fit.judge.exclusion import limit
 from disting.fit.judge.mechanics import mechanics
-from disting.statistics.scatter import Scatter, scatter
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Estimate, Task
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
+from disting.statistics.scatter import Scatter, scatter
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,14 +28,14 @@ from scipy.stats import t as t_distribution
 from disting.fit.judge.admissible import FROM_ZERO
 from disting.fit.judge.candidate import OUTSIDE, Candidate, values_of
 from disting.fit.judge.exclusion import FELT, limit
-from disting.statistics.practical import covariance
-from disting.statistics.covariance import equal
-from disting.statistics.scatter import Scatter
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine, rough
 from disting.fit.search.estimate import Task
 from disting.fit.search.starts import natural, scale
 from disting.measurement.arrays import Real
+from disting.statistics.covariance import equal
+from disting.statistics.practical import covariance
+from disting.statistics.scatter import Scatter
 
 STRAIGHT = 0.05  # relative standard error up to which Q is as good as a parabola
 MOST_LIKELY = 0.01  # of Q above its minimum

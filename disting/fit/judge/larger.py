@@ -14,7 +14,6 @@ import numpy as np
 
 from disting.fit.judge.candidate import Candidate, Scatters, judge, values_of
 from disting.fit.judge.exclusion import Exclusion
-from disting.statistics.scatter import Scatter
 from disting.fit.search.containment import contains
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import fine
@@ -23,6 +22,7 @@ from disting.fit.search.joint import AnyCost
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings
+from disting.statistics.scatter import Scatter
 
 ALIKE = 0.01  # of the scatter of a line: closer responses are the same
 

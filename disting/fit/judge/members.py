@@ -22,8 +22,6 @@ from disting.fit.judge.candidate import Candidate, Scatters, at_other_values
 from disting.fit.judge.explanation import merge, noises, scatters
 from disting.fit.judge.interval import Interval, intervals
 from disting.fit.judge.joint_verdicts import behaves_alike
-from disting.statistics.practical import practical
-from disting.statistics.covariance import expected_deviation
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.containment import contains
 from disting.fit.search.descent import fine
@@ -34,6 +32,8 @@ from disting.model.family import Family
 from disting.model.names import chain_of_whole_name
 from disting.model.presentation import plural, summary
 from disting.model.structure import Damper
+from disting.statistics.covariance import expected_deviation
+from disting.statistics.practical import practical
 from disting.store.scheduling import map_tasks
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's

@@ -12,11 +12,11 @@ import numpy as np
 from scipy.linalg import eig
 
 from disting.fit.judge.candidate import Candidate
-from disting.statistics.practical import standard_errors
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Complex, Real
 from disting.model.structure import Structure
 from disting.simulation import matrices, port_vectors
+from disting.statistics.practical import standard_errors
 
 # of the fastest root: rounding spreads the double pole of a free chain at zero this far
 STILL = 1e-6

@@ -20,11 +20,11 @@ from scipy.stats import t as t_distribution
 from disting.fit.judge.candidate import OUTSIDE
 from disting.fit.judge.exclusion import FELT, limit
 from disting.fit.judge.interval import ITERATIONS, STEP, STEPS, STRAIGHT, Interval
-from disting.statistics.practical import NoiseModel
 from disting.fit.search.data import WhitenedCost
 from disting.fit.search.descent import Box, rough
 from disting.fit.search.network_plant import AnyNetworkPlant
 from disting.measurement.arrays import Real
+from disting.statistics.practical import NoiseModel
 
 LEAST = 1e-6  # share of the largest sensitivity below which a combination is not determined
 UNKNOWN = 0.5  # deviation of a logarithm from which on tangents do not describe the valley

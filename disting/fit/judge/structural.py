@@ -14,7 +14,6 @@ from dataclasses import replace
 from math import inf
 
 from disting.experiments.machine_model import rank_by
-from disting.statistics.practical import Practical
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import measured_chain
@@ -24,6 +23,7 @@ from disting.model.question import Settings
 from disting.questions.identifiability.functions import basis
 from disting.questions.identifiability.parts import Formula
 from disting.questions.identifiability.tangent import proof_tangents
+from disting.statistics.practical import Practical
 
 MOST_TERMS = 3  # of a combination that is written out
 

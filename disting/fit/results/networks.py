@@ -9,8 +9,6 @@ from disting.files import Format
 from disting.fit.judge.explanation import FEW_CLEAR, Miss
 from disting.fit.judge.interval import Interval
 from disting.fit.judge.network_twins import NetworkTwin, intervals_to_dict
-from disting.statistics.practical import NoiseModel
-from disting.statistics.scatter import Scatter
 from disting.fit.search.cost import comparable
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
@@ -18,6 +16,8 @@ from disting.measurement.linearity import describe_nonlinearity
 from disting.model.presentation import NotebookTable, summary
 from disting.network.network import Network
 from disting.network.notation.entries import entry_of
+from disting.statistics.practical import NoiseModel
+from disting.statistics.scatter import Scatter
 from disting.verdict.decisions import Decisions
 
 BAR = " | "  # between names of networks, which have commas

@@ -21,7 +21,6 @@ import numpy as np
 from disting.fit.judge.candidate import OUTSIDE, Candidate
 from disting.fit.judge.exclusion import limit
 from disting.fit.judge.members import Member, Twin
-from disting.statistics.practical import NoiseModel
 from disting.fit.search.cost import SquaredCost
 from disting.fit.search.descent import rough
 from disting.fit.search.estimate import Task
@@ -29,6 +28,7 @@ from disting.fit.search.joint import AnyCost
 from disting.fit.search.plant import Plant
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
+from disting.statistics.practical import NoiseModel
 
 DRAWS = 100  # of a structure
 WIDEST = 1.0  # standard deviation of a logarithm, where the data do not determine it

@@ -25,7 +25,6 @@ from disting.fit.judge.alternatives import Alternative
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.members import Member
-from disting.statistics.practical import Thresholds, standard_errors
 from disting.fit.judge.quantity import QuantityReading, question
 from disting.fit.judge.readings import Reading
 from disting.fit.results.loop import Controller
@@ -38,6 +37,7 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.presentation import NotebookTable, plural, summary
+from disting.statistics.practical import Thresholds, standard_errors
 
 CRITERIA = ("condition_index", "importance_ratio", "collinearity")
 STEPS = 200  # thresholds from 1 to 10000

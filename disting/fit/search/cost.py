@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.errors import InputError
-from disting.statistics.scatter import Scatter
 from disting.fit.search.plant import Differentiable, Plant
 from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
@@ -30,6 +29,7 @@ from disting.measurement.observation import Observation
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.structure import Structure
+from disting.statistics.scatter import Scatter
 
 NOISE = 3.0  # times the usual step of a response from line to line: what noise may make
 

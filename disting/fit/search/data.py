@@ -17,7 +17,6 @@ from itertools import compress
 import numpy as np
 
 from disting.errors import InputError
-from disting.statistics.scatter import LEAST, Scatter, change, scatter, widen
 from disting.fit.search.cost import Cost, SquaredCost
 from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.fit.search.setup import Setup
@@ -25,6 +24,7 @@ from disting.measurement import FrequencyResponse, are_opposite
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.response import NO_MOTION
 from disting.model.chain import Chain
+from disting.statistics.scatter import LEAST, Scatter, change, scatter, widen
 
 MOST_EXTREME = 1e30  # of a frequency or an amplitude
 Lines = Callable[[FrequencyResponse], Real]

@@ -16,7 +16,6 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.statistics.scatter import Scatter
 from disting.fit.search.cost import Case, Cost, SquaredCost
 from disting.fit.search.plant import Motion, Plant
 from disting.fit.search.setup import Setup, measurable
@@ -25,6 +24,7 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.structure import Structure
+from disting.statistics.scatter import Scatter
 
 
 @dataclass(frozen=True, slots=True)

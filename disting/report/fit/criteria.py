@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disting.fit.judge.candidate import Candidate
-from disting.statistics.practical import Thresholds
 from disting.fit.results.selection import CRITERIA, Selection, Sweep, sweep
 from disting.measurement.arrays import Real
 from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic
 from disting.report.fit.words import readable
+from disting.statistics.practical import Thresholds
 
 MEANINGS = {
     "condition_index": "how unevenly the data determine combinations of parameters: 1 is best",

@@ -13,7 +13,6 @@ from disting.fit.judge.explanation import Level, correlations, partners
 from disting.fit.judge.members import Disagreement
 from disting.fit.judge.modes import between_lines
 from disting.fit.judge.reading import bad_lines
-from disting.statistics.scatter import CLEAR, JUMPS, change, scatter
 from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost
@@ -27,6 +26,7 @@ from disting.measurement.linearity import (
     held,
     with_change,
 )
+from disting.statistics.scatter import CLEAR, JUMPS, change, scatter
 
 FEWEST = 8  # lines of a fit
 SMOOTHED = 5  # lines over which the scatter is looked at

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from disting.errors import enumeration
 from disting.experiments.menu import Item
 from disting.fit.judge.admissible import KNOWN, UNDETERMINED
-from disting.planning.fit_file import FitRecord
-from disting.planning.next_experiment import Predictions
-from disting.planning.sample import POWER
 from disting.fit.search.candidates import reference
 from disting.fit.search.containment import contains
+from disting.planning.fit_file import FitRecord
+from disting.planning.next_experiment import Predictions
+from disting.planning.power import POWER
 from disting.report.fit.left_words import ChainAdvice, cheapest_first
 from disting.report.fit.plan_words import chance, larger_in_words
 from disting.report.fit.words import percent, readable

@@ -8,12 +8,12 @@ from typing import Any
 from disting.experiments.menu import Costs, Item
 from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL
-from disting.planning.fit_file import FitRecord, Survivor
-from disting.planning.next_experiment import Predictions, Reason, Step, Stood
-from disting.planning.sample import POWER
 from disting.fit.search.candidates import listed_form, reference
 from disting.fit.search.containment import contains
 from disting.model.chain import LEGEND, Chain, text_drawing
+from disting.planning.fit_file import FitRecord, Survivor
+from disting.planning.next_experiment import Predictions, Reason, Step, Stood
+from disting.planning.power import POWER
 from disting.report.fit.plan_words import chance, larger_in_words
 from disting.report.fit.words import percent, readable
 from disting.verdict.next_experiments import Menu

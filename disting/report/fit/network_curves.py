@@ -8,14 +8,14 @@ from math import ceil
 import numpy as np
 
 from disting.fit.judge.exclusion import FELT
-from disting.statistics.practical import standard_errors
-from disting.statistics.scatter import Scatter
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.results.selection import Confidence
 from disting.fit.search.network_plant import network_plant
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.structure import Sort
+from disting.statistics.practical import standard_errors
+from disting.statistics.scatter import Scatter
 
 POINTS = 400  # of a line
 HIGHEST = 20.0  # phases are shown below this angle and 90 for each differentiation [degree]

@@ -8,11 +8,10 @@ from typing import Any
 
 from disting.files import __version__, json_text, write_whole
 from disting.fit.judge.exclusion import LEVEL
-from disting.planning.design import Design
 from disting.planning.fit_file import FitRecord, NamedNetworks
-from disting.planning.power import Answer, Plan
-from disting.planning.sample import POWER
-from disting.planning.search import name_of
+from disting.planning.power import POWER, Answer, Plan
+from disting.planning.rival import name_of
+from disting.planning.spectrum import Design
 from disting.report.environment import render
 from disting.report.fit.links import Site, Step, folders_near, plan_command
 from disting.report.fit.plan_words import answer_in_words, chance, larger_in_words

@@ -7,15 +7,13 @@ from math import ceil, floor, sqrt
 import numpy as np
 
 from disting.fit.judge.exclusion import LEVEL
-from disting.planning.design import Design
-from disting.planning.fit_file import FitRecord, NamedNetworks
-from disting.planning.power import Answer, Plan, is_trusted, typical
-from disting.planning.rival import Limit, Rival
-from disting.planning.sample import POWER
-from disting.planning.search import AnyStructure, name_of
 from disting.fit.search.candidates import reference
 from disting.model.chain import Chain, text_drawing
 from disting.model.structure import Sort
+from disting.planning.fit_file import FitRecord, NamedNetworks
+from disting.planning.power import POWER, Answer, Plan, is_trusted, typical
+from disting.planning.rival import AnyStructure, Limit, Rival, name_of
+from disting.planning.spectrum import Design
 from disting.report.fit.links import next_command, plan_command
 from disting.report.fit.words import percent, readable
 from disting.verdict.result import Relation

@@ -14,7 +14,6 @@ import numpy as np
 
 from disting.fit.judge.explanation import Miss
 from disting.fit.judge.members import QUANTILE
-from disting.statistics.scatter import Scatter
 from disting.fit.results.selection import Confidence, Selection, confidence, response_of
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
@@ -28,6 +27,7 @@ from disting.report.fit.style import (
     over_frequency,
 )
 from disting.report.fit.words import name, percent, readable
+from disting.statistics.scatter import Scatter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.fit.judge.candidate import Candidate
-from disting.statistics.practical import Thresholds, collinearity_by_subset
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Real
 from disting.report.fit.style import FigureFiles, Tone, draw_figure, heading, is_narrow, logarithmic
 from disting.report.fit.words import readable
+from disting.statistics.practical import Thresholds, collinearity_by_subset
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disting.fit.judge.candidate import Candidate
-from disting.statistics.scatter import Scatter, scatter
 from disting.fit.results.selection import response_of
 from disting.fit.search.estimate import Task
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real, nearest
 from disting.report.fit.style import Tone
+from disting.statistics.scatter import Scatter, scatter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disting.export import NumberedStructure
 from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import undetermined
 from disting.fit.judge.modes import Result, physical
-from disting.planning.design import Design, designed_to_dict
-from disting.planning.power import Plan, typical
-from disting.export import NumberedStructure
 from disting.fit.results.selection import Profile, Selection, profile
 from disting.fit.search.candidates import reference as name_of
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
+from disting.planning.power import Plan, typical
+from disting.planning.spectrum import Design, designed_to_dict
 from disting.report.fit.bode import bode
 from disting.report.fit.convergence import profile_panels, waterfall
 from disting.report.fit.criteria import models_by_threshold, parameters_by_threshold

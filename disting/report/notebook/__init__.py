@@ -11,7 +11,6 @@ import numpy as np
 
 from disting.algebra.notation import Expr
 from disting.behaviour.expansion import transfer_function
-from disting.statistics.scatter import scatter
 from disting.export import state_space, to_control
 from disting.fit.search.data import check_range
 from disting.measurement import FrequencyResponse
@@ -23,6 +22,7 @@ from disting.report.network_drawing import network_svg
 from disting.report.notebook.network_tables import table_of  # with those of `tables`
 from disting.report.notebook.plots import drawn_on
 from disting.simulation.mechanics import check_values, frequency_response
+from disting.statistics.scatter import scatter
 
 
 class Notebook:

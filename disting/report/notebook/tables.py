@@ -14,12 +14,12 @@ from disting.equivalence import Equivalents
 from disting.evidence.positive import PositiveFinding
 from disting.fit import Candidate, Selection
 from disting.fit.judge.explanation import Level
-from disting.planning.power import Plan, is_trusted
 from disting.fit.search.candidates import reference
 from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
 from disting.measurement import FrequencyResponse, Look
 from disting.measurement.look_text import fact_rows
 from disting.model.family import Family
+from disting.planning.power import Plan, is_trusted
 from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance

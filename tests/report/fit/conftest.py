@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from disting.fit.judge.admissible import Rule
-from disting.statistics.practical import Thresholds
 from disting.export import predict
+from disting.fit.judge.admissible import Rule
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
 from disting.fit.select import select
@@ -13,6 +12,7 @@ from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.report.fit import waterfall
 from disting.report.fit.style import FigureFiles
+from disting.statistics.practical import Thresholds
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")  # type: ignore[arg-type]
 # antiresonance 33.8 Hz, resonance 58.5 Hz

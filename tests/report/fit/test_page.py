@@ -10,10 +10,9 @@ from pathlib import Path
 import pytest
 
 from disting.errors import InputError
+from disting.export import read_model
 from disting.files import __version__
 from disting.fit.judge.modes import physical
-from disting.statistics.practical import Thresholds
-from disting.fit.results.model_file import read_model
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports
 from disting.fit.select import select
@@ -33,6 +32,7 @@ from disting.report.fit.sentences import first_lines
 from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import readable
 from disting.report.fit.write import candidates_csv
+from disting.statistics.practical import Thresholds
 from tests.report.outline import Outline
 
 from .conftest import DRIVE, HOSTILE, response

@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from disting.statistics.scatter import Scatter
 from disting.export import predict
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1
@@ -31,6 +30,7 @@ from disting.report.fit.series import (
 )
 from disting.report.fit.style import Tone
 from disting.report.fit.words import between, fit_in_words
+from disting.statistics.scatter import Scatter
 
 from .conftest import DRIVE, VALUES
 
