@@ -10,12 +10,36 @@ multiples, of an odd number on odd ones (Pintelon and Schoukens, System Identifi
     level = |Y - G U| / |U|,      noise = std_p(Y_p - G U_p) / (sqrt(P) |U|)
 
 compare with |G|: Y - G U is the output without what the input, distorted itself, makes of it.
+
+Standard deviation of stochastic nonlinear contributions at the excited lines of a response.
+
+A periodic input with random phases makes a nonlinear machine show its best linear approximation
+and, beside it, contributions that repeat from period to period and look like noise from line to
+line (Pintelon and Schoukens, System Identification, 2nd ed. 2012, chapters 3 and 4). Their variance
+adds to that of the noise: with sigma_n^2 the variance of the mean by noise,
+
+    sigma_k^2 = sigma_n,k^2 + sigma_s,k^2.
+
+- Lines without excitation: where all excited lines are odd, the odd ones without excitation show
+  what falls on the excited ones too; else all of them do. Each has level^2 - noise^2.
+- Repeats with other phases (realisations): their mean scatters by sigma_k^2, the periods of each
+  tell sigma_n,k^2.
+
+Such a power q_j of single lines is averaged over the `NEAR` nearest of each excited line, as it is
+or as a share of the response,
+
+    sigma_s,k^2 = mean_j q_j    or    |G_k|^2 mean_j q_j / |G_j|^2,
+
+whichever is more likely: the steps of an encoder are alike on all lines, friction distorts a force.
+It counts only where the whole is larger than noise alone allows (F test over all lines).
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter1d
+from scipy.stats import f as f_distribution
 
 from disting.measurement.arrays import Complex, Real, apply
 from disting.model.presentation import plural, summary
@@ -116,3 +140,87 @@ def _said(the_distortion: Distortion, size: Real) -> str:
     return (
         f"{len(size)} lines without excitation show, in parts of the response (medians): {phrase}"
     )
+
+
+NEAR = 11  # lines whose mean is taken
+SURE = 1e-3  # chance of a distortion where there is noise alone
+LEAST = 1e-6  # share of the response below which a distortion is rounding
+SMALLEST = 0.1  # of the mean of all lines: a few lines may show nothing by chance
+
+
+def from_unexcited(
+    between: Distortion | None, omega: Real, response: Complex, periods: int
+) -> Real | None:
+    """Return sigma_s at the excited lines, shape (n_f,), from those between them; None where these
+    show noise alone, where their noise is unknown, or where too few are of the kind that counts.
+    """
+    if between is None or between.noise is None:
+        return None
+    kind = ~between.even if between.told_apart else np.ones(len(between.omega), dtype=bool)
+    total, noise, at = between.level[kind], between.noise[kind], between.omega[kind]
+    size = np.abs(response)
+    if not _is_larger(total, noise, np.interp(at, omega, size), (1.0, periods - 1.0)):
+        return None
+    return _averaged(total**2 - noise**2, at, omega, size)
+
+
+def is_even_beyond_noise(between: Distortion, omega: Real, response: Complex, periods: int) -> bool:
+    """Return True if even lines without excitation show more than noise, as those of a machine do
+    that is not the same in both directions.
+    """
+    if between.noise is None:
+        return False
+    size = np.interp(between.omega, omega, np.abs(response))
+    total, noise, size = (x[between.even] for x in (between.level, between.noise, size))
+    return _is_larger(total, noise, size, (1.0, periods - 1.0))
+
+
+def from_realisations(
+    total: Real, noise: Real, omega: Real, response: Complex, freedom: tuple[float, float]
+) -> Real | None:
+    """Return sigma_s of a mean, shape (n_f,): `total` = its standard deviation by the scatter of
+    n repeats, `noise` = that by the scatter of their periods; `freedom` = degrees of freedom of
+    both at each line. None where noise is all.
+    """
+    size = np.abs(response)
+    if not _is_larger(total, noise, size, (freedom[0] / 2, freedom[1] / 2)):
+        return None
+    return _averaged(total**2 - noise**2, omega, omega, size)
+
+
+def _is_larger(total: Real, noise: Real, size: Real, repeats: tuple[float, float]) -> bool:
+    """Return True if deviations of a response of this `size` are larger than those of the noise;
+    `repeats`: of which each of both comes, beyond the first.
+    """
+    if len(total) < FEWEST:
+        return False
+    near = uniform_filter1d((noise / size) ** 2, NEAR, mode="nearest")
+    ratio = float(np.mean((total / size) ** 2 / np.maximum(near, LEAST**2)))
+    return ratio > float(f_distribution.isf(SURE, *(2 * len(total) * n for n in repeats)))
+
+
+def _averaged(power: Real, at: Real, omega: Real, size: Real) -> Real:
+    """sigma_s at lines `omega` of a response of this `size` from powers of the lines `at`: as
+    they are or as shares of the response, whichever describes them better.
+    """
+    other_size = np.interp(at, omega, size)
+    ways = [(np.ones_like(other_size), np.ones_like(size)), (other_size, size)]
+
+    def deviance(of: Real) -> float:
+        """Mean of ln mu + q / mu, twice the negative logarithm of the likelihood."""
+        expected = _means(power / of**2, at, at) * of**2
+        return float(np.mean(np.log(expected) + power / expected))
+
+    of, shown = min(ways, key=lambda way: deviance(way[0]))
+    count = min(NEAR, len(at))
+    unsure = count / (count - 1)  # the mean of q / sigma_s^2 is to be 1
+    return np.asarray(np.sqrt(unsure * _means(power / of**2, at, omega)) * shown)
+
+
+def _means(power: Real, at: Real, omega: Real) -> Real:
+    """Means of powers of lines `at` over those near each line of `omega`, none of them far below
+    that of all.
+    """
+    nearest = np.argsort(np.abs(np.log(omega[:, None] / at)), axis=1, kind="stable")[:, :NEAR]
+    least = SMALLEST * max(float(power.mean()), np.finfo(float).tiny)
+    return np.asarray(np.maximum(power[nearest].mean(axis=1), least))

@@ -111,7 +111,7 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
     """A response object where one is asked for, or where no variables make up a response; else
     variables.
     """
-    from disting.measurement.matlab_models import chosen_response, from_object
+    from disting.measurement.matlab import chosen_response, from_object
 
     asked, index = split_index(options.get("response"))
     arrays, stored = _variables(file), _responses(file)

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from disting.measurement.nonlinear import is_even_beyond_noise
+from disting.measurement.distortion import is_even_beyond_noise
 from disting.measurement.response import FrequencyResponse
 
 CAUSES = "probably friction, backlash or the steps of an encoder"

@@ -8,8 +8,7 @@ from disting.errors import printable
 from disting.measurement.assumptions import assumed_quantity, assumptions, shows_impedance
 from disting.measurement.column_words import Role, Why
 from disting.measurement.excitation import Excitation
-from disting.measurement.method import Method
-from disting.measurement.response import FrequencyResponse
+from disting.measurement.response import FrequencyResponse, Method
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.understanding import ReadColumn
 from disting.model.presentation import plural

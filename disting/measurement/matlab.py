@@ -7,12 +7,16 @@ chunks larger than the array, or in one chunk that inflates to any size, whateve
 the sizes of array and chunks are read from the headers, and chunks are inflated once, piece by
 piece, before the library does it. This needs to know how they are packed: shuffled, deflated, with
 a checksum, in this order, as MATLAB and h5py do it.
+
+Frequency responses that a MATLAB file keeps as objects: `frd` (Control System Toolbox),
+`idfrd` (System Identification).
 """
 
 import io
 import warnings
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from math import prod
 from typing import Any
@@ -20,11 +24,243 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disting.errors import InputError
+from disting.errors import InputError, enumeration, short
 from disting.measurement import mat5, mat5_objects
-from disting.measurement.matlab_models import ResponseObject, stored_responses
+from disting.measurement.arrays import Complex, Real
+from disting.measurement.column_words import Role, Why, matching
+from disting.measurement.mat5_objects import OBJECT, STRUCT, Objects, Reference, objects, tree
+from disting.measurement.response import (
+    ASSUMED_ACCELERATION,
+    FrequencyResponse,
+    Signal,
+    as_sign,
+)
+from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.source import Allowance, Source, Take
-from disting.measurement.variables import Arrays
+from disting.measurement.understanding import record_format, with_unit
+from disting.measurement.variables import Arrays, real_part
+from disting.model.chain import Sensor, as_sensor
+
+HOLDERS = (STRUCT, OBJECT, mat5.OPAQUE)  # classes of variables in which responses may be
+DEFAULT_UNIT = "rad/TimeUnit"  # of MATLAB, where an object names none
+
+
+@dataclass(frozen=True, eq=False)
+class ResponseObject:
+    """A response object: frequencies, shape (n_f,), in `unit`; response, shape (n_y, n_u, n_f);
+    dead times [s], (n_y, n_u).
+
+    `variance`, shape (n_y, n_u, n_f), is var Re G + var Im G, or None.
+    """
+
+    frequency: Real
+    unit: str
+    response: Complex
+    dead_time: Real
+    variance: Real | None
+    inputs: tuple[Signal, ...]
+    outputs: tuple[Signal, ...]
+
+    def at(self, index: Sequence[int]) -> tuple[int, int]:
+        """Output and input, from 0, of both numbers or of those axes that have more than one;
+        raises InputError for others.
+        """
+        shape = self.response.shape[:2]
+        items = iter(index)
+        chosen = (
+            tuple(index)
+            if len(index) == 2
+            else tuple(next(items, -1) if n > 1 else 0 for n in shape)
+        )
+        if any(not 0 <= i < n for i, n in zip(chosen, shape, strict=True)) or len(index) > 2:
+            raise InputError(
+                f"the object holds {shape[0]} x {shape[1]} responses (outputs x inputs); choose"
+                " one, from 1, as NAME[2,1]"
+            )
+        return chosen[0], chosen[1]
+
+
+def stored_responses(content: bytes, take: Take) -> dict[str, ResponseObject]:
+    """The response objects of a MATLAB file of version 5 to 7 by name, `frf.Pv` where a struct
+    holds them.
+    """
+    stored = dict[str, ResponseObject]()
+    try:
+        subsystem = objects(content, take)
+    except mat5.DAMAGE:
+        subsystem = None
+    for variable in mat5.variables(content):
+        try:
+            if variable.kind in HOLDERS:
+                stored |= _within(
+                    variable.name, tree(variable.matrix(take), variable.order), subsystem
+                )
+        except mat5.DAMAGE:
+            continue  # what is damaged is no response
+    return stored
+
+
+def from_object(
+    stored_response: ResponseObject,
+    name: str,
+    origin: str,
+    *,
+    index: int | Sequence[int] | None = None,
+    frequency_unit: str | None = None,
+    quantity: Sensor | str | None = None,
+    sign: int = 1,
+) -> FrequencyResponse:
+    """Response from a stored one; options as in `variables.from_variables`."""
+    output, input = stored_response.at((index,) if isinstance(index, int) else tuple(index or ()))
+    omega, noted = in_omega(stored_response.frequency, stored_response.unit, frequency_unit, name)
+    response = (
+        stored_response.response[output, input]
+        * np.exp(-1j * omega * stored_response.dead_time[output, input])
+        * as_sign(sign)
+    )
+    deviation = (
+        None
+        if stored_response.variance is None
+        else np.sqrt(stored_response.variance[output, input])
+    )
+    chosen = FrequencyResponse(
+        omega,
+        response,
+        deviation,
+        sensor=as_sensor(quantity or Sensor.ACCELERATION),
+        input=stored_response.inputs[input],
+        output=stored_response.outputs[output],
+        origin=f"{origin}, {name}",
+    )
+    unit = taken_unit(omega, stored_response.frequency)
+    words = f"frequency in {unit}, complex response of the object {name}"
+    assumed = None if quantity else ASSUMED_ACCELERATION
+    parts = [(f"{name}.Frequency", Role.FREQUENCY, unit), (f"{name}.Response", Role.RESPONSE, "")]
+    parts += [] if deviation is None else [(f"{name}.Covariance", Role.DEVIATION, "")]
+    read = chosen.noted(assumed).doubted(*([noted] if noted else []))
+    why = Why.OPTION if frequency_unit else Why.BY_NUMBERS if noted else Why.FORMAT
+    return read.read_as(words, with_unit(record_format(parts), Role.FREQUENCY, unit, why))
+
+
+def chosen_response(stored: Mapping[str, ResponseObject], asked: str | None, origin: str) -> str:
+    """The name asked for, or the only one; raises InputError listing them."""
+    names = list(stored)
+    found = matching(names, asked) if asked else []
+    if len(found) == 1:
+        return names[found[0]]
+    if asked is None and len(stored) == 1:
+        return next(iter(stored))
+    wrong = (
+        f"has no frequency response {short(asked)}"
+        if asked
+        else "holds several frequency responses"
+    )
+    raise InputError(
+        f"{origin} {wrong}; choose one by --read response=NAME: {enumeration(sorted(stored))}"
+    )
+
+
+def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, ResponseObject]:
+    """Responses in a variable and in the fields of structs; objects in objects are not looked
+    for.
+    """
+    held = _properties(value, subsystem) if isinstance(value, Reference) else value
+    stored_response = _response(held) if isinstance(held, dict) else None
+    if stored_response is not None:
+        return {name: stored_response}
+    parts = value.items() if isinstance(value, dict) else ()
+    return {
+        key: response
+        for field, part in parts
+        for key, response in _within(f"{name}.{field}", part, subsystem).items()
+    }
+
+
+def _properties(of: Reference, subsystem: Objects | None) -> dict[str, Any]:
+    """Properties of an object and of its data, without the underscores that the toolboxes end
+    them with.
+    """
+    if subsystem is None:
+        return {}
+    outer = {name.rstrip("_"): value for name, value in subsystem.properties(of).items()}
+    data = outer.get("Data")
+    return (subsystem.properties(data) if isinstance(data, Reference) else {}) | outer
+
+
+def _response(held: Mapping[str, Any]) -> ResponseObject | None:
+    """The response that an object, or a struct of its form, holds; None where it holds none."""
+    frequency, response = held.get("Frequency"), held.get("Response", held.get("ResponseData"))
+    if (
+        not isinstance(frequency, np.ndarray)
+        or not isinstance(response, np.ndarray)
+        or not frequency.size
+    ):
+        return None
+    shape = response.shape if response.ndim == 3 else (1, 1, response.size)
+    if shape[-1] != frequency.size:
+        return None
+    units = [
+        held[name]
+        for name in ("FrequencyUnit", "FreqUnits", "Units")
+        if isinstance(held.get(name), str) and held[name]
+    ]
+    return ResponseObject(
+        real_part(frequency, "the frequencies of an object").ravel(),
+        _in_seconds(units[0] if units else DEFAULT_UNIT, held.get("TimeUnit")),
+        response.reshape(shape).astype(np.complex128),
+        _dead_time(held.get("Delay"), _number(held.get("Ts")), shape[:2]),
+        _variance(held.get("CovarianceData", held.get("Covariance")), shape),
+        *(_signals(held, side, n) for side, n in (("Input", shape[1]), ("Output", shape[0]))),
+    )
+
+
+def _in_seconds(unit: str, time: Any) -> str:
+    """Name of a unit of frequency; that of time is the second unless said otherwise."""
+    if isinstance(time, str) and time not in ("", "seconds"):
+        return f"{unit} with time in {time}"
+    return {"rad/TimeUnit": "rad/s", "cycles/TimeUnit": "Hz"}.get(unit, unit)
+
+
+def _number(value: Any) -> float:
+    return float(value.item().real) if isinstance(value, np.ndarray) and value.size == 1 else 0.0
+
+
+def _dead_time(delay: Any, step: float, shape: tuple[int, ...]) -> Real:
+    """Dead times of inputs, outputs and both, shape (n_y, n_u), in seconds; stored in sampling
+    periods in a discrete object.
+    """
+    total = np.zeros(shape)
+    for name, axes in (("Input", (1, shape[1])), ("Output", (shape[0], 1)), ("IO", shape)):
+        value = delay.get(name) if isinstance(delay, dict) else None
+        if isinstance(value, np.ndarray) and value.size:
+            total = total + (
+                np.broadcast_to(value.real, axes) if value.size == 1 else value.real.reshape(axes)
+            )
+    return np.asarray(total * (step if step > 0 else 1.0), dtype=np.float64)
+
+
+def _variance(covariance: Any, shape: tuple[int, ...]) -> Real | None:
+    """var Re G + var Im G from a covariance of shape (n_y, n_u, n_f, 2, 2); None where there is
+    none.
+    """
+    if not isinstance(covariance, np.ndarray) or covariance.shape != (*shape, 2, 2):
+        return None
+    return np.asarray(
+        np.maximum(covariance[..., 0, 0] + covariance[..., 1, 1], 0.0), dtype=np.float64
+    )
+
+
+def _signals(held: Mapping[str, Any], side: str, count: int) -> tuple[Signal, ...]:
+    names, units = (_texts(held.get(f"{side}{part}"), count) for part in ("Name", "Unit"))
+    return tuple(Signal(name, unit) for name, unit in zip(names, units, strict=True))
+
+
+def _texts(value: Any, count: int) -> list[str]:
+    """One text a channel; empty ones where the object has none."""
+    channels = [value] if isinstance(value, str) else value if isinstance(value, list) else []
+    texts = [text if isinstance(text, str) else "" for text in channels]
+    return texts if len(texts) == count else [""] * count
+
 
 SHUFFLE, DEFLATE, CHECKSUM = 2, 1, 3  # numbers of HDF5
 PACKED = tuple(

@@ -26,8 +26,8 @@ from scipy.ndimage import uniform_filter1d
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Complex, Real, nearest
+from disting.measurement.distortion import from_realisations
 from disting.measurement.feedback import Feedback
-from disting.measurement.nonlinear import from_realisations
 from disting.measurement.response import FrequencyResponse
 
 CHOICES = ("keep", "drop")

@@ -1,5 +1,7 @@
 """A measured frequency response: G(j omega) with its standard deviation, coherence, sensor
 quantity and origin.
+
+How a response was estimated from a record in time.
 """
 
 from collections.abc import Sequence
@@ -23,17 +25,40 @@ from disting.measurement.arrays import (
 )
 from disting.measurement.distortion import Distortion
 from disting.measurement.feedback import Feedback
-from disting.measurement.hold import Hold, as_period
-from disting.measurement.method import Method
+from disting.measurement.observation import Hold, Window, as_period
 from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import AMPERE, VOLT, agree, unit_as
-from disting.measurement.window import Window
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.quantities import Sensor, as_sensor, other_options
 from disting.renamed import renamed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """Periods or segments of which a response was estimated.
+
+    `period` [samples] and number of whole `periods` that were averaged, those of a transient
+    `dropped` before; or `segment` [samples] and number of half-overlapping `segments` of Welch's
+    method. `trends`: sentences on what was removed from input and output before. `level`: standard
+    deviation of the input over the record, in its `unit` there; 0 where it is unknown. `rate` =
+    sampling rate [Hz], 0 where it is unknown, and `order` of the sensor that was sampled (0:
+    position).
+    """
+
+    period: int = 0
+    periods: int = 0
+    dropped: int = 0
+    segment: int = 0
+    segments: int = 0
+    trends: tuple[str, ...] = ()
+    level: float = 0.0
+    unit: str = ""
+    rate: float = 0.0
+    order: int = 0
+
 
 ASSUMED_ACCELERATION = (
     f"sensor quantity taken as acceleration; if not, give {other_options(Sensor.ACCELERATION)}"

@@ -8,8 +8,7 @@ import numpy as np
 from disting.errors import InputError, short
 from disting.measurement import periodic
 from disting.measurement.arrays import Real, frozen, real, same
-from disting.measurement.method import Method
-from disting.measurement.response import UNNAMED, FrequencyResponse, Signal
+from disting.measurement.response import UNNAMED, FrequencyResponse, Method, Signal
 from disting.measurement.trend import (
     Trend,
     TrendOption,

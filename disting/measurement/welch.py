@@ -44,10 +44,9 @@ from numpy.typing import NDArray
 from disting.errors import InputError, short
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.feedback_in_noise import NoiseLoop
-from disting.measurement.method import Method
+from disting.measurement.observation import Window
 from disting.measurement.periodic import detected_period, refuse_few
-from disting.measurement.response import FrequencyResponse
-from disting.measurement.window import Window
+from disting.measurement.response import FrequencyResponse, Method
 from disting.model.presentation import plural
 
 FEWEST_SEGMENTS = 4

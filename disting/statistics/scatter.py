@@ -14,7 +14,7 @@ ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put
   nu_0 = degrees of freedom that the sources count for, from how far s_k^2 are from them beyond
   their own scatter (G. Smyth, Linear models and empirical Bayes methods, 2004). A file that does
   not say how many repeats it has tells nu by how much ln s_k^2 jumps from line to line. The
-  variance of a distortion that the data show is added (`disting.measurement.nonlinear`).
+  variance of a distortion that the data show is added (`disting.measurement.distortion`).
 
 Repeats of one excitation do not see what it makes itself: distortion by friction and play, and the
 steps of an encoder, repeat with it, and jump from line to line. Nor do they see that a machine

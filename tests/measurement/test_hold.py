@@ -15,9 +15,8 @@ from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse, read
-from disting.measurement.hold import Hold
-from disting.measurement.method import Method
-from disting.measurement.observation import Observation
+from disting.measurement.observation import Hold, Observation
+from disting.measurement.response import Method
 from disting.model.chain import Chain
 from disting.report.fit.sentences import first_lines
 

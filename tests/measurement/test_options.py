@@ -21,7 +21,7 @@ from disting.measurement import (
     write_csv,
 )
 from disting.measurement.formats import frequency_response
-from disting.measurement.matlab_models import from_object
+from disting.measurement.matlab import from_object
 from disting.measurement.options import ReadOptions, TableOptions
 from disting.measurement.table import time_series
 from disting.measurement.uff import read_uff

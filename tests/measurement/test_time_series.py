@@ -9,8 +9,7 @@ from hypothesis import given, strategies as st
 
 from disting.errors import InputError
 from disting.measurement import TimeSeries, periodic
-from disting.measurement.periodic import detected_period, excited_lines
-from disting.measurement.transient import holds_transient
+from disting.measurement.periodic import detected_period, excited_lines, holds_transient
 from disting.model.chain import Sensor
 
 RATE, PERIOD = 1000.0, 500

@@ -11,7 +11,7 @@ from disting.fit.search.cost import Cost
 from disting.fit.search.joint import JointCost
 from disting.fit.search.setup import Setup
 from disting.measurement import TimeSeries, mean_of
-from disting.measurement.window import Window, line_weights
+from disting.measurement.observation import Window, line_weights
 from disting.model.chain import Chain
 from disting.statistics.scatter import scatter
 from tests.fit.monte_carlo import drive, measured, response_at, truth
