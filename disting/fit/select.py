@@ -29,6 +29,7 @@ from disting.fit.judge.joint_verdicts import (
 )
 from disting.fit.judge.larger import check_left, searched_again
 from disting.fit.judge.members import Member, members
+from disting.fit.judge.outside import Outside, machines_outside
 from disting.fit.judge.quantity import quantity_readings
 from disting.fit.judge.readings import Reading, better_sign, pilot, readings
 from disting.fit.results.loop import Controller
@@ -211,6 +212,9 @@ def _selection(
     )
     if quantities and chosen.explanation.is_near:  # nothing is said before somebody names it
         chosen = replace(chosen, selected=None, left=(), better=())
+    outside = _outside(fits, chosen)
+    if any(machine.is_better for machine in outside):
+        chosen = replace(chosen, explanation=replace(chosen.explanation, is_beaten=True))
     whole, containing = _members(fits, chosen, work)
     return Selection(
         selected=chosen.selected,
@@ -232,6 +236,7 @@ def _selection(
         test=(fits.test or task.cost).measured,
         judging=fits.test or task.cost,
         quantities=quantities,
+        outside=outside,
     )
 
 
@@ -262,6 +267,16 @@ def _members(
     within = limits_of(fits.task.bounds, fits.task.fixed)
     left = members(kept, fits.task, fits.test, fits.known, within, work.executor, work.progress)
     return tuple(m for m in left if m.contains is None), tuple(m for m in left if m.contains)
+
+
+def _outside(fits: Fits, chosen: Choice) -> tuple[Outside, ...]:
+    """Machines outside the candidates that explain the data on which these are judged."""
+    said, described = chosen.explanation, chosen.selected or chosen.candidates[0]
+    if said.noisy or said.too_few:
+        return ()
+    bases = all(c.chain.gap == 0 for c in chosen.candidates)
+    judging = fits.test or fits.task.cost
+    return machines_outside(described, fits.task, judging, fits.known, bases)
 
 
 def _at_home(candidates: Sequence[Chain], home: Chain | None) -> Sequence[Chain]:

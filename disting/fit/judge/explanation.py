@@ -20,7 +20,8 @@ is 1 for the true model and independent of what other candidates do. There are f
   residuals of neighbouring lines, each counted up to `MOST_OF_A_LINE`, are correlated by more than
   noise gives once in 1,000 times. Disturbed lines and the distortion of a multisine jump from line
   to line; a smooth miss over many lines is that of another structure, whose values differ by more
-  than any scatter;
+  than any scatter. So it is where a machine outside the candidates explains the data better
+  (`outside`);
 - else it does not explain them, and none does where the data are mostly noise: less than
   `FEW_CLEAR` of the lines scatter by less than 20 %.
 
@@ -123,7 +124,8 @@ class Explanation:
     several responses that has most; `chi2_apart`: without the two neighbouring lines that it misses
     most; `worst_apart`: that of the line which it misses most beside these; `lines` of the data,
     and `needed` ones; `systematic`: the correlation of what is missed (`systematic_share`), 0 where
-    it may be noise.
+    it may be noise; `is_beaten`: a machine outside the candidates shows that more than noise is
+    missed (`outside`).
     """
 
     chi2: float
@@ -136,6 +138,7 @@ class Explanation:
     lines: int = 0
     needed: int = 0
     systematic: float = 0.0
+    is_beaten: bool = False
 
     def __repr__(self) -> str:
         said = "the data are mostly noise" if self.noisy else f"{self.level.value} the data"
@@ -144,7 +147,8 @@ class Explanation:
     @property
     def level(self) -> Level:
         """How far the candidate explains the data."""
-        is_near = self.size_level is not Level.NOT and self.systematic > 0
+        misses_more = self.systematic > 0 or self.is_beaten
+        is_near = self.size_level is not Level.NOT and misses_more
         return Level.NEARLY if is_near else self.size_level
 
     @property

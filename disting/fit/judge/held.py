@@ -1,7 +1,7 @@
 """Whether a held input explains the actuator of a fitted structure.
 
 A digital drive holds its input from sample to sample, which is half a sample of delay and a little
-gain (`measurement.hold`). A fit that does not know it answers with a lag or a dead time of about
+gain (`measurement.observation`). A fit that does not know it answers with a lag or a dead time of about
 half a sampling time T, or of 3 T/2 where the drive also computes for one sample. The record tells T
 but not whether the input was held, so the structure is fitted both ways, with
 

@@ -62,19 +62,21 @@ def _near_bases(
     s = np.asarray(1j * omega, dtype=np.complex128)
     wanted = impedance(at, s)
     fits = sorted(
-        (_fitted(start, wanted, omega, rho) for start in _starts(chain, at)),
+        (_fitted(start, wanted, omega, rho) for start in starts_on_base(chain, at)),
         key=lambda fit: fit[0],
     )
     near = dict[str, LookAlike]()
     for cost, there in fits:
         if np.sqrt(cost) <= norm.isf(LEVEL):
             apart = float(np.max(np.abs(wanted / on_base(there, s) - 1)))
-            text = _text(chain.n_masses - 1, there)
+            text = text_on_base(there)
             near.setdefault(text, LookAlike(LookAlikeKind.ELASTIC_BASE, text, there, apart))
     return tuple(near.values())
 
 
-def _text(masses: int, values: Mapping[str, float]) -> str:
+def text_on_base(values: Mapping[str, float]) -> str:
+    """Name a drive on an elastic base with these values."""
+    masses = sum(name[0] == "m" for name in values) - 1
     hertz = np.sqrt(values["kb"] / values["mb"]) / (2 * np.pi)
     return f"{base_text(masses)} with its resonance at {hertz:.4g} Hz{RUBBING * ('b1' in values)}"
 
@@ -104,13 +106,10 @@ def on_base(values: Mapping[str, float], s: Complex) -> Complex:
     return np.asarray(friction + drive * base / (drive + base))
 
 
-def _starts(chain: Chain, values: Mapping[str, float]) -> list[dict[str, float]]:
+def starts_on_base(chain: Chain, values: Mapping[str, float]) -> list[dict[str, float]]:
     """Values on a base for each mode that may be that of the base, dampers as the chain's are."""
     bare = {n: v for n, v in values.items() if n[0] in "mk"}
-    soft = [
-        values[f"d{i}{i + 1}"] / values[f"k{i}{i + 1}"] for i in range(1, chain.n_masses)
-    ]  # d/k
-    share = max(float(np.exp(np.mean(np.log(np.maximum(soft, SOFT))))), SOFT)
+    share = damping_share(chain, values)
     grounded = sum(values[f"b{i}"] for i in chain.ground_dampers)
     friction = {"b1": max(grounded, SOFT)} if chain.ground_dampers else {}
     starts = []
@@ -118,6 +117,12 @@ def _starts(chain: Chain, values: Mapping[str, float]) -> list[dict[str, float]]
         dampers = {f"d{n[1:]}": share * v for n, v in there.items() if n[0] == "k"}
         starts.append({**there, **dampers, **friction})
     return starts
+
+
+def damping_share(chain: Chain, values: Mapping[str, float]) -> float:
+    """The mean of d / k of the joints of a chain [s]."""
+    soft = [values[f"d{i}{i + 1}"] / values[f"k{i}{i + 1}"] for i in range(1, chain.n_masses)]
+    return max(float(np.exp(np.mean(np.log(np.maximum(soft, SOFT))))), SOFT)
 
 
 def _fitted(

@@ -25,6 +25,7 @@ from disting.fit.judge.alternatives import Alternative
 from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.members import Member
+from disting.fit.judge.outside import Outside
 from disting.fit.judge.quantity import QuantityReading, question
 from disting.fit.judge.readings import Reading
 from disting.fit.results.loop import Controller
@@ -189,7 +190,7 @@ class Selection(NotebookTable):
     are zero, from which nothing is learned. `quantities`: the readings of the data, the assumed
     quantity first, where others explain them as well; then nothing is selected, and `question` asks
     for the quantity; `command`: what reads and fits the same data once more, without the
-    candidates.
+    candidates; `outside`: machines outside the candidates that explain the data.
     """
 
     selected: Candidate | None
@@ -212,6 +213,7 @@ class Selection(NotebookTable):
     judging: AnyCost = field(repr=False)
     quantities: tuple[QuantityReading, ...] = ()
     command: str = ""
+    outside: tuple[Outside, ...] = ()
 
     def __repr__(self) -> str:
         nothing = "the sensor quantity is open" if self.question else "none is admissible"

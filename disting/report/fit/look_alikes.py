@@ -17,6 +17,7 @@ from disting.fit.judge.look_alikes import (
     look_alikes,
 )
 from disting.fit.judge.near_base import near_bases
+from disting.fit.judge.outside import Outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.joint import JointCost
 from disting.report.fit.mechanics_words import with_or
@@ -46,11 +47,43 @@ def look_alikes_of(selection: Selection) -> LookAlikes:
     if selection.task.fixed or selection.task.bounds:
         return LookAlikes(not_looked_for="values are given or bounded")
     chain, values = selection.selected.chain, selection.selected.estimate.parameters
-    of = look_alikes(chain, values)
-    if not of.base_differs:
-        return of
-    omega, rho = selection.judging.parts[0].measured.omega, selection.explanation.scatter.rho
-    return replace(of, near=near_bases(chain, values, omega, rho))
+    of, near = look_alikes(chain, values), tuple[LookAlike, ...]()
+    if of.base_differs:
+        omega, rho = selection.judging.parts[0].measured.omega, selection.explanation.scatter.rho
+        near = near_bases(chain, values, omega, rho)
+    known = {x.kind for x in (*of.found, *near)}
+    more = (x for x in selection.outside if x.kind not in known)
+    as_well = (LookAlike(x.kind, x.text, x.values, x.apart) for x in more)
+    return replace(of, near=(*near, *as_well))
+
+
+def better_outside(selection: Selection) -> tuple[Outside, ...]:
+    """Machines outside the candidates that explain the data better than the described structure."""
+    return tuple(x for x in selection.outside if x.is_better)
+
+
+def better_in_words(selection: Selection) -> str:
+    """Those machines, each with its misfit; "" where none is found."""
+    return " or ".join(
+        f"{_named(x.kind, x.text)} (chi2 {x.chi2:.3g})" for x in better_outside(selection)
+    )
+
+
+def commands_for_outside(selection: Selection) -> Iterator[str]:
+    """How to fit these machines, or, where none is found, others."""
+    found = better_outside(selection)
+    if not any(c.chain.gap for c in selection.candidates) and (
+        not found or any(x.kind is LookAlikeKind.ELASTIC_BASE for x in found)
+    ):
+        yield "fit drives on an elastic base too (--base)"
+    branches = [x.text for x in found if x.kind is LookAlikeKind.BRANCH]
+    for text in branches[:1]:
+        yield f'fit the branch beside the chains (--models "{text}" with --masses)'
+    if not found:
+        yield (
+            'fit machines with a branch beside the chains, such as --models "1=2, 1=3; F1; S1"'
+            " --ground-damper, or chains of more masses (--masses)"
+        )
 
 
 def look_alike_clause(selection: Selection) -> Iterator[str]:
@@ -113,9 +146,18 @@ def exchange_clause(selection: Selection) -> Iterator[str]:
 
 def look_alike_sentences(selection: Selection) -> Iterator[str]:
     """One sentence for each look-alike; why none is named; the way to fit an elastic base."""
+    yield from (
+        f"outside the candidates: {_named(x.kind, x.text)} explains this data better"
+        f" (chi2 {x.chi2:.3g}){_values(x.kind, x.values)}"
+        for x in better_outside(selection)
+    )
     of = look_alikes_of(selection)
     if of.not_looked_for:
-        if not selection.explanation.explains and _may_have_base(selection):
+        if (
+            not selection.explanation.explains
+            and _may_have_base(selection)
+            and not better_outside(selection)
+        ):
             yield (
                 "no candidate stands on an elastic base; --base adds those with force and encoder"
                 " between base and motor"
@@ -136,7 +178,8 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
         )
     if not (of.found or of.near):
         yield "no branch of as many masses and no base is proven to have the same responses"
-    if of.base_differs and not of.near:
+    is_near = any(x.kind is LookAlikeKind.ELASTIC_BASE for x in of.near)
+    if of.base_differs and not is_near:
         offer = "; --base fits drives on one" if _may_have_base(selection) else ""
         yield (
             "an elastic base (force and encoder between base and motor) has other responses, and"
@@ -170,13 +213,18 @@ def _to_dict(x: LookAlike) -> dict[str, Any]:
 
 
 def _sentence(x: LookAlike) -> str:
-    what = "a branch " * (x.kind is LookAlikeKind.BRANCH) + x.text
+    what = _named(x.kind, x.text)
     if x.kind is not LookAlikeKind.BRANCH:
         what += f" ({RELATIVE})"
     reduced = "" if x.kind is LookAlikeKind.BRANCH else f"; {REDUCED}"
     differ = f"they differ by up to {percent(x.apart)}"
     near = f" within the scatter of this data ({differ})" if x.apart else ""
     return f"{what} has the same responses{near}{reduced}{_values(x.kind, x.values)}"
+
+
+def _named(kind: LookAlikeKind, text: str) -> str:
+    """Such as: a branch 1=2, 1=3; F1; S1."""
+    return f"a branch {text}" if kind is LookAlikeKind.BRANCH else text
 
 
 def _values(kind: LookAlikeKind, values: Mapping[str, float] | None) -> str:

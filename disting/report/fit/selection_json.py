@@ -37,6 +37,16 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
             for a in selection.alternatives
         ],
         "look_alikes": look_alikes_to_dict(selection),
+        "outside": [
+            {
+                "kind": x.kind.value,
+                "name": x.text,
+                "values": dict(x.values),
+                "chi2_per_line": x.chi2,
+                "better": x.is_better,
+            }
+            for x in selection.outside
+        ],
         "not_fitted": [
             {**_named(c), "same_as": _named(other)} for c, other in selection.same_as.items()
         ],

@@ -27,7 +27,13 @@ from disting.report.fit.doubts import (
     unseen,
     weak,
 )
-from disting.report.fit.look_alikes import exchange_clause, look_alike_clause
+from disting.report.fit.look_alikes import (
+    better_in_words,
+    better_outside,
+    commands_for_outside,
+    exchange_clause,
+    look_alike_clause,
+)
 from disting.report.fit.mechanics_words import (
     actuators_in_words,
     fold_names,
@@ -179,14 +185,21 @@ def _verdict(selection: Selection) -> str:
 def _nearly(selection: Selection) -> str:
     """That the described structure comes near the data, and what else the machine may be."""
     said, best = selection.explanation, reference(selection.described.chain)
-    where = f", most at {'; '.join(m.sentence for m in said.misses)}," if said.misses else ""
+    where = f", most at {'; '.join(m.sentence for m in said.misses)}" if said.misses else ""
+    size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone"
+    if said.systematic:
+        size += f"; residuals of neighbouring lines are correlated by {said.systematic:.2f}"
+    found = better_in_words(selection)
+    other = f"the machine may be {with_or(list(_outside(selection)))}"
     return (
         f"none of the candidates explains this data fully: {best} comes near, but misses it by more"
-        f" than noise{where} and neighbouring lines in the same way (chi2 per line {said.chi2:.3g},"
-        f" 1 is noise alone; correlation {said.systematic:.2f}): the machine may be"
-        f" {with_or(list(_outside(selection)))}; values hold {APPROXIMATE}, and may lie outside"
-        " their intervals"
+        f" than noise{where} ({size}); {_explained_by(found) if found else other}; values hold"
+        f" {APPROXIMATE}, and may lie outside their intervals"
     )
+
+
+def _explained_by(found: str) -> str:
+    return f"outside the candidates this machine explains it: {found}"
 
 
 def _outside(selection: Selection) -> Iterator[str]:
@@ -275,7 +288,7 @@ def _to_decide(selection: Selection) -> Iterator[str]:
             f" and {states} can tell, disting next looks for one that can"
         )
     if selection.explanation.level is Level.NEARLY:
-        yield from _other_machines(selection)
+        yield from commands_for_outside(selection)
     elif not (differing or same):
         yield (
             "nothing is left to decide between the candidates; machines outside them, such as a"
@@ -286,16 +299,6 @@ def _to_decide(selection: Selection) -> Iterator[str]:
         if unknown:
             yield f"unknown if these behave the same: {_listed(unknown)}"
         yield from weak(selection)
-
-
-def _other_machines(selection: Selection) -> Iterator[str]:
-    """How to fit machines that are no candidates."""
-    if not any(c.chain.gap for c in selection.candidates):
-        yield "fit drives on an elastic base too (--base)"
-    yield (
-        'fit machines with a branch beside the chains, such as --models "1=2, 1=3; F1; S1"'
-        " --ground-damper, or chains of more masses (--masses)"
-    )
 
 
 def _alike(selection: Selection) -> Iterator[tuple[str, list[str]]]:
@@ -352,6 +355,8 @@ def _missed(selection: Selection) -> Iterator[str]:
     yield _verdict(selection)
     if selection.explanation.misses:
         yield f"missed most at {', at '.join(m.sentence for m in selection.explanation.misses)}"
+    if found := better_in_words(selection):
+        yield _explained_by(found)
 
 
 def _unexplained(selection: Selection) -> Iterator[str]:
@@ -362,7 +367,9 @@ def _unexplained(selection: Selection) -> Iterator[str]:
         return
     if selection.explanation.noisy:
         yield "more excitation or more periods lower the noise"
-    if bad(selection):
+    if better_outside(selection):
+        yield from commands_for_outside(selection)
+    elif bad(selection):
         yield from bad(selection)
     elif selection.readings:
         yield f"what would fit better: {'; '.join(r.sentence for r in selection.readings)}"
