@@ -80,7 +80,7 @@ if TYPE_CHECKING:
         simulation as simulation,
     )
     from disting.algebra.certainty import Certainty as Certainty
-    from disting.behaviour.expansion import transfer_function as transfer_function
+    from disting.behaviour.transfer import transfer_function as transfer_function
     from disting.catalogs import Catalog as Catalog, ModelRow as ModelRow, catalog as catalog
     from disting.conditions.finding import Finding as Finding, Outcome as Outcome
     from disting.conditions.inclusion import Inclusion as Inclusion

@@ -19,8 +19,7 @@ from disting.fit.search.candidates import listed_form
 from disting.fit.search.plant import Plant
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.response import as_sign
-from disting.model.chain import Chain
-from disting.model.state_space import StateSpace
+from disting.model.chain import Chain, StateSpace
 from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
 from disting.simulation import matrices, port_vectors
 from disting.simulation.mechanics import check_values

@@ -20,9 +20,14 @@ from flint import fmpz_poly
 from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, constant, lowest_terms, variable
 from disting.algebra.symbols import coefficients
-from disting.behaviour.expansion import numerator_and_denominator
 from disting.behaviour.sample import at_point, coefficient_columns
-from disting.behaviour.transfer import Arrangement, plain_receptance, receptance, values_at
+from disting.behaviour.transfer import (
+    Arrangement,
+    numerator_and_denominator,
+    plain_receptance,
+    receptance,
+    values_at,
+)
 from disting.model.protocol import Columns, Degrees
 from disting.model.structure import Structure
 

@@ -10,7 +10,10 @@ The names:
 from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
-    from disting.catalogs.catalog import Catalog as Catalog, catalog as catalog
-    from disting.catalogs.pairs import ModelRow as ModelRow
+    from disting.catalogs.catalog import (
+        Catalog as Catalog,
+        ModelRow as ModelRow,
+        catalog as catalog,
+    )
 
 offer(__name__)

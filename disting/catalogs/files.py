@@ -12,7 +12,7 @@ whenever one is read.
 
 `settled-dampers.jsonl`: pairs of chains with dampers to the ground that were decided once, with
 patience, a line a pair of canonical chains with its finding, which has its evidence.
-`damper_family` takes over what it finds there; that the evidence holds is looked at by itself
+`dampers` takes over what it finds there; that the evidence holds is looked at by itself
 (`evidence_check.finding_holds`). The file, to which `disting catalog settle` appends, is named with
 the length that it had: what is appended later is the user's own. See `disting.files.intact_text`,
 which compares.

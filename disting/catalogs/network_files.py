@@ -9,33 +9,158 @@ by conditions or by an exact decision in milliseconds: they are decided anew.
 A command on a family takes the findings over, so it answers at once, and all that it says has its
 evidence. Families of thousands of such pairs are searched in brief: what is not decided within
 small bounds is undecided in the file, and `disting compare` of the two alone goes on for longer.
-Of networks that give the same one is asked about: a pair of others says `as` which pair it has all
-from, and what differs.
+Of networks that give the same functions one is asked about: a pair of others says `as` which pair
+it has all from, and what differs. Pairs of which parts tell something are not searched (see
+`disting.general.parts`).
 """
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from itertools import chain
+from itertools import chain, combinations, groupby
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
-from disting.catalogs.network_search import in_order, representatives, same_pairs, search_in_brief
 from disting.conditions.finding import Finding
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import CatalogError
+from disting.evidence.kind import Labels
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import without_names
-from disting.general.forms import BRIEFLY, WAS_BRIEF, of_equals
+from disting.general.forms import BRIEFLY, WAS_BRIEF, of_equals, of_part
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
 from disting.general.model_side import ComparedModel, positive_question
+from disting.general.parts import parts_of
 from disting.general.plain_maps import PLAIN_MAPS
-from disting.general.replacement import replaceable
+from disting.general.replacement import replaceable, simplest_network
 from disting.network.families import FAMILIES, NetworkFamily, family_of
-from disting.verdict.decisions import Decisions
+from disting.network.simplest import same_drawing
+from disting.verdict.decisions import Decisions, Pair
 from disting.verdict.engine import Engine, Progress, question_key, silent
 from disting.verdict.query import Query, View
+from disting.verdict.result import Relation
+
+MOST = 9  # parameters of networks whose parts are looked at
+
+
+def search_in_brief(
+    engine: Engine,
+    sides: list[ComparedModel],
+    over_complex: Decisions,
+    executor: Executor | None,
+    progress: Progress,
+) -> None:
+    """Let the engine know what a brief search tells of each pair, in place of a long one; of
+    networks that give the same one is asked about.
+    """
+    own = representatives(sides)
+    same = [pair for pair in same_pairs(over_complex, len(sides)) if _is_searched(sides, *pair)]
+    pairs = sorted({in_order(own[i], own[j]) for i, j in same})
+    questions = {(i, j): positive_question(sides[i], sides[j])[1] for i, j in pairs if i < j}
+    parts = _representatives_of_parts(sides, own)
+    answers, by_parts = dict[Pair, Finding](), dict[Pair, Finding]()
+
+    def size(pair: Pair) -> int:
+        """Parameters of both: parts have fewer, so they are asked about before the whole."""
+        return sum(len(sides[i].subject.parameters) for i in pair)
+
+    for _, layer in groupby(sorted(questions, key=size), key=size):
+        whole = list[Pair]()
+        for pair in layer:
+            finding = next(_of_parts(sides, parts, answers, *pair), None)
+            if finding is None:
+                whole.append(pair)
+            else:
+                by_parts[pair] = finding
+        engine.answer_all(
+            BRIEFLY, [questions[p] for p in whole], executor=executor, progress=progress
+        )
+        answers |= {p: engine.answer(BRIEFLY, questions[p], engine.settings) for p in whole}
+    for i, j in same:
+        a, b = own[i], own[j]
+        if a == b:
+            continue  # a theorem tells it
+        finding = _ordered(by_parts if in_order(a, b) in by_parts else answers, a, b)
+        if (a, b) != (i, j):
+            finding = of_equals(finding, sides[a].name, sides[b].name)
+        question, models = positive_question(sides[i], sides[j])
+        if question is not PLAIN_MAPS:  # a theorem tells it
+            engine.remember(question, models, finding)
+
+
+def _ordered(answers: Mapping[Pair, Finding], i: int, j: int) -> Finding:
+    return answers[i, j] if i < j else answers[j, i].turned
+
+
+def _representatives_of_parts(
+    sides: Sequence[ComparedModel], own: Sequence[int]
+) -> dict[int, list[tuple[Labels, int]]]:
+    """Of each network that stands for others: names of elements that can be left out, and the
+    network that stands for the rest; of large ones, which have thousands of parts, none.
+    """
+    numbers = {form: i for i in own if (form := simplest_network(sides[i].subject))}
+    parts = dict[int, list[tuple[Labels, int]]]()
+    for i in {*own}:
+        whole = sides[i].subject
+        tried = parts_of(whole) if len(whole.parameters) <= MOST else ()
+        every = [(names, simplest_network(part)) for names, part in tried]
+        parts[i] = [(names, numbers[form]) for names, form in every if form in numbers]
+    return parts
+
+
+def _of_parts(
+    sides: Sequence[ComparedModel],
+    parts: Mapping[int, Sequence[tuple[Labels, int]]],
+    answers: Mapping[Pair, Finding],
+    i: int,
+    j: int,
+) -> Iterator[Finding]:
+    """Yield what answers on parts of two networks tell of both."""
+    for left_is_part, whole in ((True, i), (False, j)):
+        for missing, part in parts[whole]:
+            a, b = (part, j) if left_is_part else (i, part)
+            if in_order(a, b) in answers:
+                inner = of_equals(_ordered(answers, a, b), sides[a].name, sides[b].name)
+                finding = of_part(inner, left_is_part, missing)
+                if finding is not None:
+                    yield finding
+
+
+def representatives(sides: Sequence[ComparedModel]) -> list[int]:
+    """For each the number of the network that stands for it: of those that give the same, one that
+    is no chain and a simplest one, if there is one.
+    """
+    forms = [simplest_network(s.subject) for s in sides]
+
+    def order(i: int) -> tuple[bool, bool, int]:
+        """The smallest is the one that is asked about."""
+        network, form = sides[i].subject.network, forms[i]
+        plain = network is not None and form is not None and same_drawing(network, form)
+        return sides[i].chain is not None, not plain, i
+
+    first = dict[object, int]()
+    for i in sorted(range(len(sides)), key=order):
+        first.setdefault(forms[i] or i, i)
+    return [first[form or i] for i, form in enumerate(forms)]
+
+
+def _is_searched(sides: Sequence[ComparedModel], i: int, j: int) -> bool:
+    """Whether one of them is no chain: chains have their own ways."""
+    return sides[i].chain is None or sides[j].chain is None
+
+
+def in_order(i: int, j: int) -> Pair:
+    """Both, the smaller one first."""
+    return (i, j) if i < j else (j, i)
+
+
+def same_pairs(over_complex: Decisions, count: int) -> Iterator[Pair]:
+    """Yield the pairs that are not told apart over complex parameters."""
+    for i, j in combinations(range(count), 2):
+        if over_complex.relation(i, j) is not Relation.DISTINGUISHABLE:
+            yield i, j
+
 
 SCHEMA = 1
 COMMAND = "disting catalog families"

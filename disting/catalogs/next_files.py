@@ -21,8 +21,7 @@ from functools import cache, cached_property
 from pathlib import Path
 
 from disting.catalogs.catalog import Catalog
-from disting.catalogs.damper_family import DamperFamily
-from disting.catalogs.dampers import DamperSets, Masses
+from disting.catalogs.dampers import DamperFamily, DamperSets, Masses
 from disting.catalogs.files import Record, lines, shipped_folder, write_provenance
 from disting.errors import CatalogError
 from disting.experiments.menu import Costs, Gain

@@ -4,8 +4,7 @@ an engine, and as it is over positive parameters.
 
 from functools import lru_cache
 
-from disting.catalogs.catalog import Catalog
-from disting.catalogs.pairs import ModelRow
+from disting.catalogs.catalog import Catalog, ModelRow
 from disting.model.chain import Chain
 from disting.model.question import Domain
 from disting.model.symmetry import canonical

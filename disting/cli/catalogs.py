@@ -6,7 +6,7 @@ from itertools import product
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.dampers import DamperFamily
 from disting.catalogs.files import shipped_folder
 from disting.catalogs.network_files import SHIPPED, build_networks
 from disting.cli.arguments import add_masses, add_out, add_work, size_or_family
@@ -105,7 +105,7 @@ def candidates(options: argparse.Namespace) -> int:
 
 def sizes(options: argparse.Namespace) -> int:
     """Compute the verdicts on pairs of models of different sizes."""
-    from disting.catalogs.sizes_build import build_sizes, write
+    from disting.catalogs.sizes import build_sizes, write
 
     with engine_for(options) as (engine, pool, progress):
         for damped in (False, True):
@@ -128,7 +128,7 @@ def families(options: argparse.Namespace) -> int:
 
 def menus(options: argparse.Namespace) -> int:
     """Compute what to measure next for all groups of whole families."""
-    from disting.catalogs.damper_family import damper_catalog
+    from disting.catalogs.dampers import damper_catalog
     from disting.catalogs.next_files import (
         SHIPPED_SIZES as NEXT_SIZES,
         WITH_DAMPERS,
@@ -151,8 +151,8 @@ def settle(options: argparse.Namespace) -> int:
     """Decide pairs of classes with dampers to the ground that are open, of the sizes that have
     files.
     """
-    from disting.catalogs.damper_family import read
-    from disting.catalogs.verify import settle_dampers
+    from disting.catalogs.build import settle_dampers
+    from disting.catalogs.dampers import read
 
     with engine_for(options) as (engine, _, _):
         for n in options.masses:
@@ -167,9 +167,9 @@ def settle(options: argparse.Namespace) -> int:
 
 def verify(options: argparse.Namespace) -> int:
     """Verify catalogues; status 1 if something is wrong."""
+    from disting.catalogs.build import verify_networks
     from disting.catalogs.files import SHIPPED_SIZES as CATALOGUED
-    from disting.catalogs.sizes_build import verify_sizes
-    from disting.catalogs.verify import verify_networks
+    from disting.catalogs.sizes import verify_sizes
 
     wrong: list[str] = []
     sizes = [n for n in options.masses if isinstance(n, int)]
@@ -207,9 +207,9 @@ def _wrong_of_one_size(
     """What is wrong in the files of chains of one size; nothing is taken from the cache: a
     verification computes.
     """
-    from disting.catalogs.damper_family import SHIPPED_SIZES, read
+    from disting.catalogs.build import verify as verify_chains, verify_dampers
+    from disting.catalogs.dampers import SHIPPED_SIZES, read
     from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, verify_next
-    from disting.catalogs.verify import verify as verify_chains, verify_dampers
 
     fresh, texts = Engine(), list[str]()
     for check in (verify_chains, verify_dampers) if n in SHIPPED_SIZES else (verify_chains,):

@@ -2,11 +2,16 @@
 
 A pair of a shipped catalogue is looked up here. Whatever else is asked for is decided in
 `decision`, with all that decides: a look-up needs none of it.
+
+What is said of a verdict, and of either way, is the same for both.
 """
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
+from disting.catalogs import catalog
+from disting.catalogs.files import SHIPPED_SIZES
 from disting.cli.arguments import (
     MODEL,
     add_also,
@@ -18,13 +23,155 @@ from disting.cli.arguments import (
     add_notation,
     add_quantity,
 )
-from disting.cli.compare_words import both_ways, explain
-from disting.cli.look_up import in_order, look_up, shipped_ranks
-from disting.cli.relations import query
-from disting.model.chain import Chain, text_drawing
-from disting.model.names import NAME, read_together
-from disting.verdict.query import View
-from disting.verdict.result import Verdict
+from disting.cli.relations import in_colour, query
+from disting.conditions.inclusion import Inclusion, InclusionFinding
+from disting.evidence.positive import PositiveFinding
+from disting.model.chain import Chain, Sensor, text_drawing
+from disting.model.names import NAME, name_of, names_of, read, read_together
+from disting.model.question import Domain
+from disting.verdict.meaning import RESPONSE, meaning_sentence, undetermined_sentence
+from disting.verdict.query import Query, View
+from disting.verdict.result import Relation, Verdict
+
+Known = tuple[str, int, int]
+"""The name of a model, how much of it is determined, how many parameters it has."""
+
+
+def explain(
+    verdict: Verdict,
+    drawn: list[str],
+    items: Iterable[Known] | None = None,
+    what: str = RESPONSE,
+    everywhere: bool = False,
+) -> str:
+    """Relation, drawings, what cannot be determined of models that are told apart, what a
+    measurement (of `what`) shows (`everywhere`: at special values too), sentence, evidence,
+    certainty, domain, inclusion.
+    """
+    names = (verdict.left, verdict.right)
+    width = max(map(len, names))
+    drawings = [f"  {name:{width}}  {text}" for name, text in zip(names, drawn, strict=True)]
+    heading = in_colour(verdict.relation.upper(), verdict.relation)
+    lines = [heading, "", *drawings, ""]
+    apart = verdict.relation is Relation.DISTINGUISHABLE
+    unknown = list(
+        filter(None, (undetermined_sentence(*parts) for parts in (apart and items) or ()))
+    )
+    lines += [*unknown, *([""] if unknown else [])]
+    lines += [meaning_sentence(verdict, what, everywhere), "", verdict.sentence]
+    if verdict.evidence:
+        lines += [f"evidence   {verdict.evidence.formula}", f"certainty  {verdict.sure}"]
+    lines.append(f"domain     {verdict.domain} parameters{_over_complex(verdict)}")
+    return "\n".join([*lines, *_inclusion(verdict)])
+
+
+def _over_complex(verdict: Verdict) -> str:
+    """Beside a verdict over real or positive parameters, that over complex ones, where it is
+    known.
+    """
+    if verdict.domain is Domain.COMPLEX or (
+        verdict.closure is Inclusion.UNKNOWN and verdict.inclusions is None
+    ):
+        return ""
+    complex_relation = (
+        Relation.INDISTINGUISHABLE
+        if verdict.closure is Inclusion.EQUAL
+        else Relation.DISTINGUISHABLE
+    )
+    also = (
+        "too"
+        if verdict.relation is complex_relation
+        else f"they are {complex_relation} (--domain complex)"
+    )
+    return f"; over complex ones {also}"
+
+
+def _inclusion(verdict: Verdict) -> list[str]:
+    """What is said of models of unequal rank."""
+    both = verdict.inclusions
+    if both is None:
+        return []
+    lines = [f"inclusion  over complex parameters: {both.sentence(verdict.left, verdict.right)}"]
+    if both.image == both.closure:
+        return [*lines, f"why        {_why(both.closure, verdict)}"]
+    return [
+        *lines,
+        f"image      {_why(both.image, verdict)}",
+        f"closure    {_why(both.closure, verdict)}",
+    ]
+
+
+def _why(finding: InclusionFinding, verdict: Verdict) -> str:
+    """Grade and evidence of one statement, or why it is not known."""
+    if finding.evidence is None:
+        return f"not known: {finding.reason}"
+    sure = f", {finding.certainty.in_words(finding.safety)}" if finding.certainty else ""
+    return f"{finding.inclusion}{sure}: {finding.evidence.sentence(verdict.left, verdict.right)}"
+
+
+def both_ways(
+    verdict: Verdict,
+    where: str = "positive",
+    shares: Sequence[PositiveFinding | None] = (),
+) -> Iterator[str]:
+    """Which positive models of each side have an equivalent on the other side, as far as that is
+    told: by the verdict, or by the shares of both sides that are given, `where` they were counted.
+    """
+    names = (verdict.left, verdict.right)
+    shares = shares or (verdict.left_positive, verdict.right_positive)
+    for name, other, finding in zip(names, reversed(names), shares, strict=True):
+        if finding is not None:
+            why = finding.evidence.sentence(name, other) if finding.evidence else finding.reason
+            seen = f" ({finding.empirical.sentence})" if finding.empirical else ""
+            yield f"{where}: {name} in {other} {finding.share}{seen}. {why}"
+
+
+def look_up(chains: Sequence[Chain], asked: Query) -> Verdict | None:
+    """The stored verdict on two chains of a shipped catalogue, if all conditions may decide, under
+    their whole names.
+    """
+    left, right = sorted((read(name_of(chain)) for chain in chains), key=lambda n: n.number)
+    a, b = chains
+    stored = (
+        a.n_masses == b.n_masses in SHIPPED_SIZES
+        and a.damped == b.damped
+        and a.sensor is b.sensor is Sensor.ACCELERATION
+        and left.is_plain
+        and right.is_plain
+        and left != right
+        and asked == Query(asked.view)
+    )
+    if not stored:
+        return None
+    verdict = catalog(a.n_masses, damped=a.damped).verdict(left.number, right.number, asked.view)
+    return replace(verdict, left=str(left), right=str(right))
+
+
+def in_order(chains: Sequence[Chain], verdict: Verdict) -> list[Chain]:
+    """The chains in the order of their verdict: a stored one names the model of the lower number
+    first.
+    """
+    turned = verdict.left != names_of(chains[0], chains[1])[0]
+    return list(reversed(chains)) if turned else list(chains)
+
+
+def shipped_ranks(chains: Sequence[Chain]) -> tuple[Known, ...] | None:
+    """How much of two chains is determined, as their catalogues have it; None if none tells of
+    them.
+    """
+    a, b = chains
+    if not all(_is_shipped(chain) for chain in chains):
+        return None
+    records = (catalog(c.n_masses, damped=c.damped).record(read(name_of(c)).number) for c in chains)
+    named = zip(names_of(a, b), records, strict=True)
+    return tuple((name, r["rank"], len(r["parameters"])) for name, r in named)
+
+
+def _is_shipped(chain: Chain) -> bool:
+    """Whether a catalogue tells of it."""
+    plain = replace(chain, ground_dampers=(), lag=False, dead_time=False) == chain
+    acceleration = chain.sensor is Sensor.ACCELERATION
+    return plain and acceleration and chain.n_masses in SHIPPED_SIZES
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

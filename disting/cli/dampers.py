@@ -9,14 +9,17 @@ from functools import partial
 from itertools import combinations
 from textwrap import fill
 
-from disting.catalogs.damper_family import (
+from disting.catalogs.dampers import (
     SHIPPED_SIZES,
     DamperFamily,
+    DamperSets,
+    DamperTable,
     damper_catalog,
     damper_family,
+    dampers,
+    spell,
     write,
 )
-from disting.catalogs.dampers import DamperSets, DamperTable, dampers, spell
 from disting.cli.arguments import add_damped, add_masses, add_out, add_work, is_damped
 from disting.cli.output import emit, emitted_lines, written_file
 from disting.cli.relations import relations_in_words

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from disting.cli.compare_words import Known, both_ways, explain
-from disting.cli.look_up import in_order, look_up, shipped_ranks
+from disting.cli.compare import Known, both_ways, explain, in_order, look_up, shipped_ranks
 from disting.cli.model_names import in_letters, models_of
 from disting.cli.output import emit
 from disting.cli.relations import query

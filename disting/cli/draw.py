@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
     """Draw one model."""
     from disting.report.network_drawing import scene_of
     from disting.report.png import png
-    from disting.report.svg import svg
+    from disting.report.scene import svg
 
     if not (options.svg or options.png):
         raise InputError("say where the drawing goes: --svg FILE or --png FILE")

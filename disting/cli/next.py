@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
+from disting.catalogs.dampers import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, next_catalog
 from disting.cli.arguments import (

@@ -5,16 +5,16 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import (
+from disting.catalogs.dampers import (
     SHIPPED_SIZES as DAMPER_SIZES,
     damper_catalog,
 )
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.network_files import SHIPPED, recall
-from disting.catalogs.sizes_files import sizes_catalog
+from disting.catalogs.sizes import sizes_catalog
 from disting.cli.arguments import Listed, add_out, add_work, size_or_list
-from disting.cli.parser import parser
 from disting.cli.relations import relations_in_words
+from disting.cli.run import parser
 from disting.cli.verdicts import LISTS, list_of
 from disting.cli.workers import announce, announce_pairs, engine_for, pairs_by_size, pairs_work
 from disting.errors import InputError

@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
     from disting.measurement import csv_text
     from disting.measurement.impedance import as_impedance
     from disting.simulation import Bench, Excitation, Friction
-    from disting.simulation.excitation import read_spectrum
+    from disting.simulation.bench import read_spectrum
 
     model, values = _model(options)
     quantity = _response(model, options)

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from pathlib import Path
 
-from disting.catalogs.decisions_text import decisions_csv, decisions_json
+from disting.catalogs.export import decisions_csv, decisions_json
 from disting.catalogs.network_files import SHIPPED, recall
 from disting.catalogs.sizes import combined_family
 from disting.cli.arguments import (

@@ -9,8 +9,7 @@ from disting.algebra.certainty import Certainty, weakest, withhold
 from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
 from disting.errors import ContradictionError
 from disting.evidence.kinds import Evidence, evidence_from
-from disting.evidence.positive import PositiveFinding, Share
-from disting.evidence.real import BothWays
+from disting.evidence.positive import BothWays, PositiveFinding, Share
 from disting.model.presentation import summary
 
 # what files have in the place of the rule where a decision found it, since the first of them: a

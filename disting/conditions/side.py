@@ -8,9 +8,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Generic, Self, TypeVar
 
-from disting.algebra.certainty import prime
+from disting.algebra.certainty import full_text, prime
 from disting.algebra.colouring import Colouring, colouring
-from disting.algebra.content import full_text
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding

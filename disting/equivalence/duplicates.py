@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from disting.algebra.notation import text
+from disting.algebra.symbols import text
 from disting.equivalence.closed_forms import MOST_SOLVED, by_name
 from disting.errors import ContradictionError, InputError, enumeration, of_type
 from disting.evidence.general import Explicit

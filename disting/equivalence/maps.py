@@ -13,8 +13,14 @@ from typing import Any
 from flint import fmpq
 
 from disting.algebra.certainty import Certainty
-from disting.algebra.notation import expression, latex, latex_symbol, text
-from disting.algebra.symbols import RationalFunction, variables
+from disting.algebra.symbols import (
+    RationalFunction,
+    expression,
+    latex,
+    latex_symbol,
+    text,
+    variables,
+)
 from disting.equivalence.checks import holds_at_random, is_identity, safety
 from disting.equivalence.inputs import Value, point_of
 from disting.equivalence.theorems import Image, expansions, images

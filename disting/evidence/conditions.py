@@ -9,7 +9,7 @@ from disting.evidence.kind import COMPLEX, Carrier, Claim, Inside, Kind, Labels,
 from disting.model.question import Domain, Relation
 
 if TYPE_CHECKING:
-    from disting.evidence.model_samples import SampledPair
+    from disting.evidence.kind import SampledPair
 
 TRANSCENDENTAL = (
     "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"

@@ -8,12 +8,13 @@ What fibres tell of two models: the one answer of both engines, synthesis and id
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar, get_args
 
-from disting.evidence.across_sizes import AcrossSizes
 from disting.evidence.conditions import ByConditions, Counts
 from disting.evidence.decision import DeadTime, FibreAt, FibreUnder, Theorem
+from disting.evidence.general import OfGeneralModels
 from disting.evidence.ideals import ByRows, FullRows, NoShares, Refutation, Solutions
 from disting.evidence.kind import read
 from disting.evidence.limits import (
+    AcrossSizes,
     FullImage,
     LargerProjection,
     Minor,
@@ -22,8 +23,7 @@ from disting.evidence.limits import (
     RelativeDegrees,
     RowsInside,
 )
-from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
-from disting.evidence.substitutes import OfGeneralModels
+from disting.evidence.positive import BothWays, OddFibres, RealFactors, RealWitnesses
 from disting.model.question import Membership
 
 E = TypeVar("E", bound=FibreAt | Solutions | Refutation | ByRows, covariant=True)

@@ -24,7 +24,6 @@ from disting.algebra.certainty import Size, prime, residues
 from disting.algebra.quotient import Quotient, matrix
 from disting.algebra.symbols import coefficients, symbols
 from disting.behaviour.chain_model import quotient, size_of_minors, vanishing_series
-from disting.behaviour.expansion import become
 from disting.behaviour.sample import (
     Representation,
     at_point,
@@ -33,7 +32,7 @@ from disting.behaviour.sample import (
     seen_at,
     shared_poles,
 )
-from disting.behaviour.transfer import plain_receptance, touched_rows
+from disting.behaviour.transfer import become, plain_receptance, touched_rows
 from disting.experiments.experiment import Entry, MeasuredChain
 from disting.model.protocol import ZERO, Columns, Degrees
 

@@ -13,12 +13,10 @@ from disting.conditions.finding import Finding
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refutation, Solutions
-from disting.evidence.kind import Kind
+from disting.evidence.kind import Kind, ModelSamples, SampledPair, samples_of
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.limits import FullImage, LargerProjection, MissingElements
-from disting.evidence.model_samples import ModelSamples, SampledPair, samples_of
-from disting.evidence.positive import OnlyOne, Points, PositiveFinding, Share
-from disting.evidence.real import BothWays
+from disting.evidence.positive import BothWays, OnlyOne, Points, PositiveFinding, Share
 from disting.experiments.exact import answer_of
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import confirms_missing, numberings

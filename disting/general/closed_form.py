@@ -20,8 +20,14 @@ from flint import fmpz_mod_ctx, fmpz_mpoly
 from flint.utils.flint_exceptions import DomainError
 
 from disting.algebra.certainty import Certainty, Size, about, enough, prime, residues, safety
-from disting.algebra.notation import latex, latex_symbol, text
-from disting.algebra.symbols import RationalFunction, factorise, variables
+from disting.algebra.symbols import (
+    RationalFunction,
+    factorise,
+    latex,
+    latex_symbol,
+    text,
+    variables,
+)
 from disting.errors import ContradictionError
 from disting.general.any_model import on_one_variable
 from disting.general.field import Step, letters

@@ -20,10 +20,19 @@ from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
-from disting.evidence.general import BOTH, Explicit, Inequality, NoEquivalent, Witnesses
-from disting.evidence.kind import Labels
-from disting.evidence.model_samples import samples_of
-from disting.evidence.substitutes import AtInverse, OfNetworks, OfPart, OfSubstitutes, Replacement
+from disting.evidence.general import (
+    BOTH,
+    AtInverse,
+    Explicit,
+    Inequality,
+    NoEquivalent,
+    OfNetworks,
+    OfPart,
+    OfSubstitutes,
+    Replacement,
+    Witnesses,
+)
+from disting.evidence.kind import Labels, samples_of
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network, on_one_variable, with_names, without_names
 from disting.general.matrix_model import AnyModel

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
-from disting.algebra.notation import quotient, text_in_s
-from disting.algebra.symbols import RationalFunction, rename_symbols, symbols
-from disting.behaviour.expansion import expand
+from disting.algebra.symbols import RationalFunction, quotient, rename_symbols, symbols, text_in_s
+from disting.behaviour.transfer import expand
 from disting.errors import InputError
 from disting.general.entries import (
     frequency,

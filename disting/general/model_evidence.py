@@ -19,9 +19,8 @@ from disting.evidence.general import (
     Witnesses,
 )
 from disting.evidence.ideals import Refutation, Solutions
-from disting.evidence.kind import Kind
+from disting.evidence.kind import Kind, SampledPair, samples_of
 from disting.evidence.kinds import Evidence
-from disting.evidence.model_samples import SampledPair, samples_of
 from disting.fibres.ideals import Limits, find_again
 from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports

@@ -19,11 +19,10 @@ from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import OverDomain
+from disting.evidence.general import OfSubstitutes, OverDomain
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
-from disting.evidence.substitutes import OfSubstitutes
 from disting.general import model_evidence
 from disting.general.any_model import (
     LEFT,

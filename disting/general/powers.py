@@ -17,8 +17,7 @@ from itertools import permutations
 from flint import fmpz_mpoly, nmod_poly
 
 from disting.algebra.certainty import prime, residues
-from disting.algebra.notation import symbol
-from disting.algebra.symbols import RationalFunction
+from disting.algebra.symbols import RationalFunction, symbol
 from disting.errors import InputError
 from disting.model.presentation import COUNTED, HALVES
 from disting.network.network import Network

@@ -9,7 +9,7 @@ most of them; of others the exact decision cannot tell that nothing matches.
 
 from collections.abc import Callable
 
-from disting.algebra.content import full_text
+from disting.algebra.certainty import full_text
 from disting.behaviour.profile import Profile
 from disting.general.any_model import cells_of, in_powers
 from disting.general.matrix_model import AnyModel

@@ -5,7 +5,8 @@ Index 0 is the ground, which counts as the left neighbour of mass 1. There is a 
 neighbours except at the gap. The force acts with +F on mass `act_plus` and with -F on `act_minus`;
 the sensor shows x[meas_plus] - x[meas_minus].
 
-A chain in one line of text: for tables in a terminal.
+`text_drawing` is a chain in one line of text, for tables in a terminal; a chain with numbers is a
+state space.
 """
 
 from collections.abc import Iterable, Mapping
@@ -14,7 +15,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from disting.errors import ConstraintViolation, InputError, enumeration, short
-from disting.model.presentation import LONGEST, NotebookPicture
+from disting.model.presentation import LONGEST, NotebookPicture, plural, summary
 from disting.model.structure import (
     Damper,
     Element,
@@ -34,8 +35,36 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from disting.algebra.notation import Expr
-    from disting.model.state_space import StateSpace
+    from disting.algebra.symbols import Expr
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Real = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class StateSpace:
+    """x' = A x + B u, y = C x + D u of a chain; states: positions, velocities, the lag's force;
+    `delay` of the input [s]; `states` by name, `units` of states, of the input u and the output y
+    where the parameters are in SI units of translation.
+    """
+
+    A: "Real"
+    B: "Real"
+    C: "Real"
+    D: "Real"
+    delay: float
+    states: tuple[str, ...]
+    units: dict[str, str]
+
+    def __repr__(self) -> str:
+        return summary(
+            self,
+            plural(len(self.A), "state") + (f", dead time {self.delay:g} s" if self.delay else ""),
+        )
+
 
 AS_IT_IS = "as it is"  # an experiment that changes nothing, in words
 PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothing is said

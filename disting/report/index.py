@@ -1,29 +1,141 @@
-"""The page that leads to the catalogues, and from the description of a machine to its model."""
+"""The page that leads to the catalogues, and from the description of a machine to its model.
+
+The start page's "Describe your machine" knows the models' indices, what is not told apart over
+positive parameters, and the parts of drawings. A description is any chain under (36) and (37), so
+one that breaks (38) too: the page finds its model by the symmetries that (38) breaks (mirrored free
+row, force and sensor exchanged). Every layer of a drawing depends on the gap, one port, or one
+element and whether there are dampers, never on the number of masses: so each is held once, under a
+name that the page's script can spell.
+"""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import groupby, product
 from operator import itemgetter
 
 from markupsafe import Markup
 
 from disting.catalogs import Catalog
-from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.dampers import DamperFamily
 from disting.catalogs.files import damper_name
-from disting.catalogs.sizes_files import SizesCatalog
+from disting.catalogs.sizes import SizesCatalog
+from disting.model.chain import Chain
+from disting.model.structure import Indices, violations
+from disting.network.families import family_with
 from disting.quantities import MODELLED
 from disting.report.damper_page import family_title
-from disting.report.describe_machine import machines, parts
+from disting.report.drawing import (
+    Drawing,
+    Part,
+    draw,
+    ground_dampers,
+    height_with_dampers,
+    parts_of,
+    share,
+)
 from disting.report.environment import render
 from disting.report.matrix import FILLS
-from disting.report.model import model_of, motion_of
-from disting.report.page_drawing import Drawing, share
-from disting.report.payload import script_json
-from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene
+from disting.report.model import folder_of, model_of, motion_of
+from disting.report.network_drawing import hatching
+from disting.report.network_symbols import Track, draw_symbol, gear
+from disting.report.payload import one_sided_pairs, script_json, with_exceptions
+from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene, body, number
 from disting.report.search import families
-from disting.report.svg import body, number
-from disting.report.words import headline, plural, short_title, title, totals
+from disting.report.words import headline, plural, short_title, title, totals, unknown_parameters
+from disting.verdict.query import View
 from disting.verdict.result import Relation
+
+
+def descriptions(n_masses: int, *, damped: bool) -> Iterator[Chain]:
+    """Every chain under (36) and (37), in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
+
+    >>> len(list(descriptions(3, damped=True)))
+    17
+    """
+    for gap in range(n_masses):
+        low, high = range(gap + 1), range(gap + 1, n_masses + 1)
+        for ports in product(low, high, low, high):
+            indices = Indices(n_masses, gap, *ports)
+            if not any(violations(indices, (36, 37))):
+                yield Chain(*indices, damped=damped)
+
+
+def parts(catalogs: Iterable[Catalog]) -> tuple[Part, ...]:
+    """The layers of all descriptions' drawings, each once; dampers to the ground; and signs of
+    which the page's script draws machines that are no chains.
+    """
+    catalogs = tuple(catalogs)
+    largest = max((c.n_masses for c in catalogs), default=0)
+    bearings = (
+        Part(f"part-friction-{p.name.split('-')[1]}", p.layer) for p in ground_dampers(largest)
+    )
+    return (*chain_parts(catalogs), *(bearings if largest else ()), *_signs())
+
+
+def _signs() -> Iterator[Part]:
+    """A spring, a damper, wheels of a gear and a piece of ground, each at (0, 0), along x."""
+    track = Track((-18.0, 0.0), (18.0, 0.0))
+    for letter in "kd":
+        yield Part(f"part-sign-{letter}", Layer(letter, draw_symbol(letter, track)))
+    yield Part("part-sign-gear", Layer("gear", gear(Track((-18.0, 0.0), (9.0, 0.0)))))
+    yield Part(
+        "part-sign-ground", Layer("ground", tuple(hatching(Track((-9.0, 0.0), (0.0, 0.0)), 13.0)))
+    )
+
+
+def chain_parts(catalogs: Iterable[Catalog]) -> tuple[Part, ...]:
+    """The layers of all descriptions' drawings, each once."""
+    return parts_of(chain for c in catalogs for chain in descriptions(c.n_masses, damped=c.damped))
+
+
+def machines(catalogs: Iterable[Catalog]) -> list[dict[str, object]]:
+    """Of each catalogue: its models' five indices in order, groups, of whose models special values
+    are left aside, what depends on the values, how many verdicts are open.
+    """
+    return [_machine(c) for c in catalogs]
+
+
+def _machine(c: Catalog) -> dict[str, object]:
+    scene = draw(c.family[1])
+    return {
+        "name": c.name,
+        "title": short_title(c),
+        "folder": folder_of(c),
+        "masses": c.n_masses,
+        "damped": c.damped,
+        "families": [
+            family_with(c.n_masses, damped=c.damped, loops=loops) for loops in (False, True)
+        ],
+        "size": [scene.width, scene.height],
+        "below": height_with_dampers(c.n_masses) - scene.height,
+        "models": [chain.indices[1:] for chain in c.family],
+        "groups": c.classes(),
+        "aside": sorted({m for pair in with_exceptions(c, View.POSITIVE) for m in pair}),
+        "depends": _depending(c),
+        "open": _undecided(c),
+        "known": {row.number: said for row in c.rows if (said := unknown_parameters(row))},
+    }
+
+
+def _depending(c: Catalog) -> dict[int, list[int]]:
+    """For each model, those that have equivalents of some of its positive parameters, or the
+    reverse, but not of all.
+    """
+    pairs = [way for low, high in c.depending() for way in ((low, high), (high, low))]
+    pairs += [(case.given, case.other) for case in one_sided_pairs(c)]
+    return {
+        number: sorted(other for first, other in pairs if first == number)
+        for number in sorted({p for p, _ in pairs})
+    }
+
+
+def _undecided(c: Catalog) -> dict[int, int]:
+    """Number of undecided pairs of each model that has any."""
+    numbers = range(1, len(c.family) + 1)
+    pairs = [(i, j) for j in numbers for i in range(1, j) if c.relation(i, j) is Relation.UNDECIDED]
+    touched = [number for pair in pairs for number in pair]
+    return {number: touched.count(number) for number in sorted(set(touched))}
+
 
 THUMBNAIL = 168.0  # pixels
 Run = tuple[Ink, int, int, int]

@@ -22,10 +22,10 @@ from disting.general.model import Model
 from disting.general.special_values import Special, lower_degree
 from disting.model.question import Domain
 from disting.network.exact import within
+from disting.report.drawing import share
 from disting.report.environment import render
 from disting.report.formulas import typeset
 from disting.report.listing import Card, Listing
-from disting.report.page_drawing import share
 from disting.report.words import plural
 from disting.verdict.query import View
 from disting.verdict.result import Relation

@@ -18,9 +18,9 @@ from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.notation import network_of, notations_of
 from disting.questions.identifiability.parts import Level
-from disting.report.domains import VIEWS, Over, over
+from disting.report.drawing import Drawing
 from disting.report.network_drawing import draw_network, scene_of
-from disting.report.page_drawing import Drawing
+from disting.report.payload import VIEWS, Over, over
 from disting.report.words import sets_in_words
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent

@@ -11,10 +11,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from disting.catalogs import Catalog
+from disting.conditions.rule import RULES
 from disting.report.png import png
-from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Shape, Text
-from disting.report.svg import svg
-from disting.report.words import VIEW_TITLES, headline, sign, title, totals
+from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Shape, Text, svg
+from disting.report.words import VIEW_TITLES, headline, title, totals
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 
@@ -269,3 +269,12 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
         max(grid.letters, 0.62 * grid.cell),
         LETTERS.get(verdict.relation, Ink.LINE),
     )
+
+
+def sign(decided_by: str) -> str:
+    """What a field of a matrix shows, nothing of an undecided pair.
+
+    >>> sign("4"), sign("exact"), sign("")
+    ('4', 'E', '')
+    """
+    return RULES[decided_by].sign if decided_by else ""

@@ -13,13 +13,13 @@ from functools import cache
 from disting.catalogs import Catalog, ModelRow
 from disting.catalogs.recalled_chains import over_positive
 from disting.conditions.inclusion import Inclusion
+from disting.conditions.rule import RULES
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain
 from disting.questions.identifiability.answer import Identifiability
-from disting.report.drawing import draw
+from disting.report.drawing import Drawing, additions, draw, share
 from disting.report.environment import render
-from disting.report.experiment_drawing import additions
 from disting.report.formulas import (
     Correspondence,
     combinations,
@@ -27,8 +27,7 @@ from disting.report.formulas import (
     transfer_function_parts,
 )
 from disting.report.next_steps import advice, drawings_of, found_for, page_of
-from disting.report.page_drawing import Drawing, share
-from disting.report.words import plural, rule_in_words, sets_in_words, short_title
+from disting.report.words import plural, sets_in_words, short_title
 from disting.verdict.query import View
 from disting.verdict.result import Relation, Verdict
 
@@ -282,3 +281,12 @@ def _positive(
 
 def _port(plus: int, minus: int) -> str:
     return f"{plus} against {minus or 'ground'}"
+
+
+def rule_in_words(decided_by: str) -> str:
+    """What decided, in words.
+
+    >>> rule_in_words("4"), rule_in_words("exact")
+    ('condition 4', 'the exact decision')
+    """
+    return RULES[decided_by].in_words()

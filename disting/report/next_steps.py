@@ -12,7 +12,7 @@ from disting.catalogs.files import SHIPPED_SIZES as CATALOGUES
 from disting.catalogs.next_files import SHIPPED_SIZES, NextCatalog, name_of, next_catalog
 from disting.experiments.menu import Item
 from disting.model.chain import Chain
-from disting.report.experiment_drawing import Sketch, sketch
+from disting.report.drawing import Sketch, sketch
 from disting.verdict.next_experiments import Menu
 from disting.verdict.next_words import anywhere, conclusion, in_words, left_over
 from disting.verdict.query import View

@@ -15,14 +15,12 @@ from markupsafe import Markup
 from disting.catalogs import Catalog
 from disting.catalogs.files import damper_name
 from disting.catalogs.next_files import NextCatalog
-from disting.catalogs.sizes_files import name_of as sizes_name
+from disting.catalogs.sizes import name_of as sizes_name
 from disting.conditions.rule import EXACT, RULES, Role, Rule
 from disting.files import __version__
 from disting.model.chain import Chain
-from disting.report.domains import VIEWS, Over, over
-from disting.report.drawing import draw
+from disting.report.drawing import Drawing, additions, draw, share
 from disting.report.environment import render
-from disting.report.experiment_drawing import additions
 from disting.report.matrix import has_slides, slide_name
 from disting.report.model import folder_of, model_of, motion_of
 from disting.report.motion import start_values
@@ -36,8 +34,7 @@ from disting.report.next_steps import (
     page_of,
     sketches_for_pairs,
 )
-from disting.report.page_drawing import Drawing, share
-from disting.report.payload import payload
+from disting.report.payload import VIEWS, Over, over, payload
 from disting.report.search import Families, families
 from disting.report.words import (
     VIEW_TITLES,

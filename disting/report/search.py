@@ -9,9 +9,9 @@ The pages of pairs of a site: what a search needs of each, by its name.
 from collections.abc import Mapping, Sequence
 
 from disting.catalogs import Catalog
-from disting.catalogs.damper_family import DamperFamily
+from disting.catalogs.dampers import DamperFamily
 from disting.catalogs.files import damper_name
-from disting.catalogs.sizes_files import SizesCatalog
+from disting.catalogs.sizes import SizesCatalog
 from disting.files import json_text
 from disting.report.environment import source
 from disting.report.guide import Part

@@ -12,14 +12,12 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from disting.algebra.certainty import Certainty
-from disting.catalogs.sizes_files import SizesCatalog
+from disting.catalogs.sizes import SizesCatalog
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.files import __version__
-from disting.report.domains import VIEWS, over
-from disting.report.drawing import draw
+from disting.report.drawing import Drawing, draw, share
 from disting.report.environment import render
-from disting.report.page_drawing import Drawing, share
-from disting.report.payload import pack, payload
+from disting.report.payload import VIEWS, over, pack, payload
 from disting.report.search import Families, families
 from disting.report.words import VIEW_TITLES, plural, raise_exponents
 from disting.verdict.query import View

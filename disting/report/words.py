@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterator, Sized
 from typing import TYPE_CHECKING, Protocol
 
-from disting.conditions.rule import RULES
 from disting.model.presentation import plural as plural
 from disting.model.question import Domain
 from disting.questions.identifiability.parts import Level
@@ -18,7 +17,6 @@ if TYPE_CHECKING:  # words on catalogues are used by pages that need none
     from disting.catalogs import Catalog, ModelRow
     from disting.verdict.identifiable import Identified
 
-LARGEST_SPELLED_OUT = 3  # masses; a damped chain of 4 has coefficients of a hundred terms
 VIEW_TITLES = {
     View.POSITIVE: "Positive parameters",
     View.EXACT: "Complex parameters",
@@ -106,24 +104,6 @@ def totals(decided: DecidedModels, view: View = View.POSITIVE) -> dict[Relation,
         r for r in Relation if r is not Relation.SOMETIMES or view.domain is not Domain.COMPLEX
     ]
     return {relation: relations.count(relation) for relation in shown}
-
-
-def rule_in_words(decided_by: str) -> str:
-    """What decided, in words.
-
-    >>> rule_in_words("4"), rule_in_words("exact")
-    ('condition 4', 'the exact decision')
-    """
-    return RULES[decided_by].in_words()
-
-
-def sign(decided_by: str) -> str:
-    """What a field of a matrix shows, nothing of an undecided pair.
-
-    >>> sign("4"), sign("exact"), sign("")
-    ('4', 'E', '')
-    """
-    return RULES[decided_by].sign if decided_by else ""
 
 
 def with_and(parts: list[str]) -> str:

@@ -9,13 +9,13 @@ from itertools import product
 from pathlib import Path
 
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import (
+from disting.catalogs.dampers import (
     SHIPPED_SIZES as DAMPER_SIZES,
     DamperFamily,
     damper_catalog,
 )
 from disting.catalogs.files import SHIPPED_SIZES, damper_name, name_of
-from disting.catalogs.sizes_files import SizesCatalog, name_of as sizes_name, sizes_catalog
+from disting.catalogs.sizes import SizesCatalog, name_of as sizes_name, sizes_catalog
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
@@ -29,9 +29,9 @@ from disting.report.model_list import list_pages
 from disting.report.motion import motion_page
 from disting.report.next_steps import found_for, page_of
 from disting.report.page import next_page, page
+from disting.report.scene import svg
 from disting.report.search import ADDRESS, Families, families, search_script
 from disting.report.sizes import sizes_page
-from disting.report.svg import svg
 from disting.report.words import VIEW_TITLES
 
 STYLE = "models/style.css"

@@ -19,17 +19,18 @@ if TYPE_CHECKING:
         DEMO_MODEL as DEMO_MODEL,
         DEMO_PARAMETERS as DEMO_PARAMETERS,
         Bench as Bench,
+        Excitation as Excitation,
+        Kind as Kind,
         demo as demo,
         simulate as simulate,
         simulate_all as simulate_all,
     )
-    from disting.simulation.excitation import Excitation as Excitation, Kind as Kind
     from disting.simulation.mechanics import (
+        Friction as Friction,
         Matrices as Matrices,
         frequency_response as frequency_response,
         matrices as matrices,
         port_vectors as port_vectors,
     )
-    from disting.simulation.stepping import Friction as Friction
 
 offer(__name__)

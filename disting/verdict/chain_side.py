@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from disting.algebra.content import full_text
+from disting.algebra.certainty import full_text
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expansion import is_renaming
+from disting.behaviour.transfer import is_renaming
 from disting.conditions.finding import Finding, Outcome, positive_ways
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import EXACT

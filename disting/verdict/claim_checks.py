@@ -15,7 +15,7 @@ from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import AnySide, notes_of
 from disting.evidence.general import without_digits
 from disting.evidence.kinds import Evidence
-from disting.evidence.real import BothWays
+from disting.evidence.positive import BothWays
 from disting.verdict.cascade import decide, follows, over_domain
 from disting.verdict.comparison import prove_again
 from disting.verdict.query import Query, View

@@ -15,7 +15,7 @@ from itertools import combinations
 
 from disting.algebra.certainty import Certainty
 from disting.algebra.determinants import OutOfTimeError
-from disting.behaviour.expansion import coefficients_have_rank, rank_is_at_most
+from disting.behaviour.transfer import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
 from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, short

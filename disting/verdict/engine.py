@@ -22,7 +22,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from disting.algebra.content import full_text
+from disting.algebra.certainty import full_text
 from disting.behaviour.profile import Profile, profile, profile_from_json, profile_to_json
 from disting.behaviour.sample import Representation
 from disting.model.chain import Chain
@@ -30,9 +30,8 @@ from disting.model.presentation import summary
 from disting.model.protocol import Model
 from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical, refuse_gap_damper
-from disting.store.code import digest
 from disting.store.scheduling import map_tasks as map_tasks
-from disting.store.store import Store
+from disting.store.store import Store, digest
 from disting.verdict.query import Query
 from disting.verdict.result import Verdict
 

@@ -28,8 +28,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from math import ceil, log2
 
-from disting.algebra.certainty import Certainty
-from disting.algebra.content import full_text
+from disting.algebra.certainty import Certainty, full_text
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Outcome

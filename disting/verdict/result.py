@@ -13,8 +13,7 @@ from disting.conditions.inclusion import (
 from disting.conditions.rule import EXACT, RULES, Role, Stage
 from disting.evidence.conditions import capital
 from disting.evidence.kinds import Evidence, evidence_from as evidence_from
-from disting.evidence.positive import PositiveFinding
-from disting.evidence.real import BothWays
+from disting.evidence.positive import BothWays, PositiveFinding
 from disting.model.chain import Premise
 from disting.model.presentation import AS_CHAIN, COUNTED, GENERIC, NotebookTable, summary
 from disting.model.question import Domain, Relation as Relation

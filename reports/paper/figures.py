@@ -16,7 +16,7 @@ from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
-from disting.fit.results.export import predict
+from disting.export import predict
 from markupsafe import Markup
 
 from disting import Catalog, Decisions, Family, Relation, View
@@ -44,6 +44,7 @@ from disting.report.matrix import (
     legend,
     legend_entry,
     legend_width,
+    sign,
 )
 from disting.report.png import png
 from disting.report.scene import (
@@ -58,9 +59,10 @@ from disting.report.scene import (
     Scene,
     Shape,
     Text,
+    body,
+    number,
+    svg,
 )
-from disting.report.svg import body, number, svg
-from disting.report.words import sign
 from tests.paper.claims import Findings, Refit
 
 if TYPE_CHECKING:

@@ -12,11 +12,12 @@ from disting.algebra.matroid import (
     Component,
     Matroid,
     SearchTooLargeError,
+    dependent_flats,
     matroid,
     rank_in,
+    search_size,
     separating_rows,
 )
-from disting.algebra.matroid_circuits import dependent_flats, search_size
 
 P = 2**31 - 1
 LIMIT = 10**6

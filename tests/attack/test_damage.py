@@ -10,7 +10,7 @@ import warnings
 import pytest
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import read as read_dampers
+from disting.catalogs.dampers import read as read_dampers
 from disting.catalogs.files import shipped_folder
 from disting.cli import main
 from disting.errors import CatalogError

@@ -14,7 +14,6 @@ from disting.algebra.certainty import Size, prime, safety
 from disting.algebra.matroid import rank_in
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, degrees, is_sign_free
-from disting.behaviour.expansion import expand
 from disting.behaviour.profile import (
     NoMatroid,
     from_samples,
@@ -23,6 +22,7 @@ from disting.behaviour.profile import (
     profile_to_json,
 )
 from disting.behaviour.sample import Representation, draw_point, samples
+from disting.behaviour.transfer import expand
 from tests.conditions.handmade import LARGE, SMALL, sample
 from tests.laws.strategies import chains
 from tests.oracles import sympy_twin as twin

@@ -14,8 +14,7 @@ from multiprocessing import get_context
 import pytest
 
 from disting import Engine, Query
-from disting.catalogs.damper_family import damper_family
-from disting.catalogs.dampers import DamperSets
+from disting.catalogs.dampers import DamperSets, damper_family
 from tests.bench.measure import peak_mebibytes, seconds, table
 
 pytestmark = pytest.mark.bench

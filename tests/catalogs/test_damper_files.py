@@ -19,7 +19,13 @@ from disting import (
     catalog,
     compare,
 )
-from disting.catalogs.damper_family import (
+from disting.catalogs.build import (
+    DECIDES,
+    false_findings,
+    settle_dampers,
+    verify_dampers,
+)
+from disting.catalogs.dampers import (
     SHIPPED_SIZES,
     DamperFamily,
     _read,
@@ -31,12 +37,6 @@ from disting.catalogs.damper_family import (
     write,
 )
 from disting.catalogs.files import SETTLED, append, damper_name, read_findings, shipped_folder
-from disting.catalogs.verify import (
-    DECIDES,
-    false_findings,
-    settle_dampers,
-    verify_dampers,
-)
 from disting.cli import main
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT

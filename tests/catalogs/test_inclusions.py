@@ -5,9 +5,8 @@ import copy
 import pytest
 
 from disting import Engine
-from disting.catalogs.build import build
+from disting.catalogs.build import build, false_evidence
 from disting.catalogs.catalog import Catalog
-from disting.catalogs.verify import false_evidence
 from disting.errors import CatalogError
 
 

@@ -7,6 +7,7 @@ from itertools import combinations
 
 import pytest
 
+from disting.catalogs.build import verify_networks
 from disting.catalogs.network_files import (
     POSITIVE,
     SHIPPED,
@@ -16,11 +17,10 @@ from disting.catalogs.network_files import (
     recall,
     recall_of,
 )
-from disting.catalogs.verify import verify_networks
 from disting.cli.run import main
 from disting.errors import CatalogError
+from disting.evidence.general import OfPart
 from disting.evidence.kinds import evidence_from
-from disting.evidence.substitutes import OfPart
 from disting.files import shipped_folder
 from disting.general.any_model import of_network, without_names
 from disting.general.forms import BRIEFLY, WAS_BRIEF

@@ -6,7 +6,7 @@ from itertools import combinations
 import pytest
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import damper_catalog
+from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.files import shipped_folder
 from disting.catalogs.next_files import (
     SHIPPED_SIZES,

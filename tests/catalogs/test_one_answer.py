@@ -11,7 +11,7 @@ from itertools import combinations
 import pytest
 
 from disting import Engine, Query, Relation, View, catalog, compare
-from disting.catalogs.decisions_text import decisions_csv
+from disting.catalogs.export import decisions_csv
 from disting.model.question import Domain
 from disting.report import page
 from disting.verdict.result import Verdict

@@ -6,9 +6,8 @@ import shutil
 import pytest
 
 from disting import CatalogError, Engine, Query, Relation, View, catalog
-from disting.catalogs.build import build, write
+from disting.catalogs.build import build, false_evidence, verify, write
 from disting.catalogs.files import PROVENANCE, lines, name_of, provenance_of, shipped_folder
-from disting.catalogs.verify import false_evidence, verify
 from disting.errors import InputError
 from disting.questions.same.evidence_check import Witness
 

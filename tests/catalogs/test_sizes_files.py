@@ -10,11 +10,15 @@ from random import Random
 import pytest
 
 from disting import CatalogError, Engine, Inclusion, InputError, Relation, View, catalog, compare
-from disting.catalogs import sizes_files
 from disting.catalogs.files import lines, shipped_folder
-from disting.catalogs.sizes import combine
-from disting.catalogs.sizes_build import false_evidence, verify_sizes
-from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
+from disting.catalogs.sizes import (
+    VIEWS,
+    SizesCatalog,
+    combine,
+    false_evidence,
+    sizes_catalog,
+    verify_sizes,
+)
 from disting.conditions.inclusion import Sense
 
 DAMPINGS = pytest.mark.parametrize("damped", [False, True], ids=["undamped", "damped"])
@@ -97,7 +101,7 @@ def test_models_of_two_sizes_are_distinguishable_in_every_view(
     both: dict[bool, SizesCatalog], damped: bool
 ) -> None:
     found = both[damped]
-    for view in sizes_files.VIEWS:
+    for view in VIEWS:
         assert {
             found.relation(i, j, view)
             for i, j in combinations(range(1, 118), 2)

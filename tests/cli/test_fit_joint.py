@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disting.cli.fit_data import data
-from disting.cli.parser import parser
+from disting.cli.run import parser
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import FurtherResponse, JointCost
 from disting.fit.search.setup import Setup

@@ -190,7 +190,7 @@ def pressed(program, *arguments):
     "module",
     [
         "disting.cli",
-        "disting.cli.parser",
+        "disting.cli.run",
         "flint",
         *by_hand("argparse", "disting.cli.next", "numpy.linalg"),
     ],

@@ -23,14 +23,19 @@ from disting import (
 )
 from disting.algebra.certainty import weakest
 from disting.catalogs import Catalog
-from disting.catalogs.build import build
-from disting.catalogs.decisions_text import decisions_csv
-from disting.catalogs.verify import false_evidence
+from disting.catalogs.build import build, false_evidence
+from disting.catalogs.export import decisions_csv
 from disting.conditions.finding import positive_ways
 from disting.conditions.inclusion import Inclusion
 from disting.evidence.kinds import evidence_from
-from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
-from disting.evidence.real import BothWays, OddFibres, RealFactors
+from disting.evidence.positive import (
+    BothWays,
+    EmptyFibre,
+    OddFibres,
+    PositiveFinding,
+    RealFactors,
+    Share,
+)
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Status, target
 from disting.model.question import Answer, Domain, Settings
@@ -39,8 +44,7 @@ from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import positive_finding, proves
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.real_and_positive import by_counts, positive_share, resting_on
-from disting.report.domains import VIEWS, over
-from disting.report.payload import payload
+from disting.report.payload import VIEWS, over, payload
 from disting.verdict.result import Verdict
 from tests.oracles.positive_synthesis import positive_point
 

@@ -4,8 +4,7 @@ import pytest
 import sympy
 
 from disting.algebra.certainty import Certainty
-from disting.algebra.notation import text
-from disting.algebra.symbols import variables
+from disting.algebra.symbols import text, variables
 from disting.equivalence import equivalents, explicit_map
 from disting.equivalence.checks import holds_at_random, is_identity
 from disting.model.chain import Chain

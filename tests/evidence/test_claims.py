@@ -12,8 +12,7 @@ from disting.conditions.table import CONDITIONS
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.decision import THEOREMS, Theorem
 from disting.evidence.kinds import Evidence, InclusionEvidence
-from disting.evidence.positive import PositiveEvidence, PositiveFinding, Share
-from disting.evidence.real import BothWays
+from disting.evidence.positive import BothWays, PositiveEvidence, PositiveFinding, Share
 from disting.model.question import Domain, Relation
 from disting.verdict.cascade import follows
 from disting.verdict.query import View

@@ -10,7 +10,7 @@ import pytest
 import disting.evidence
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import Theorem
-from disting.evidence.general import NoEquivalent
+from disting.evidence.general import AtInverse, NoEquivalent, Replacement
 from disting.evidence.ideals import ByRows, RowStep, Solutions, Vanishing
 from disting.evidence.kind import read
 from disting.evidence.kinds import (
@@ -21,7 +21,6 @@ from disting.evidence.kinds import (
 )
 from disting.evidence.limits import LargerProjection
 from disting.evidence.positive import EmptyFibre, Interlacing, PositiveEvidence, RowWords
-from disting.evidence.substitutes import AtInverse, Replacement
 
 UNIONS = [set(get_args(union)) for union in (Evidence, InclusionEvidence, PositiveEvidence)]
 

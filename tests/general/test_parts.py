@@ -12,7 +12,7 @@ import sympy
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
 from disting.evidence.decision import Theorem
-from disting.evidence.substitutes import OfPart
+from disting.evidence.general import OfPart
 from disting.general.any_model import of_network
 from disting.general.forms import by_parts, confirms_forms, over_positive
 from disting.general.orthant import BRIEF

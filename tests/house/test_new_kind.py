@@ -103,7 +103,7 @@ def test_fit_and_pages(folder):
 from disting.fit import Setup
 from disting.fit.search.joint import JointCost
 from disting.model.chain import Chain
-from disting.report.experiment_drawing import draw_item, state
+from disting.report.drawing import draw_item, state
 from disting.model.kinds import MAGNET
 from disting.experiments.menu import Item
 

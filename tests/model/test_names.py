@@ -14,10 +14,9 @@ from disting import (
     prove,
     transfer_function,
 )
-from disting.catalogs.damper_family import damper_catalog
+from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.next_files import next_catalog
-from disting.catalogs.sizes import combined_family
-from disting.catalogs.sizes_files import sizes_catalog
+from disting.catalogs.sizes import combined_family, sizes_catalog
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chain_of, name_of, read, read_together
 from disting.questions.identifiability.analysis import identifiability

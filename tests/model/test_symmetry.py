@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 
 from disting import Chain, Family, Symmetry
-from disting.behaviour.expansion import is_renaming
+from disting.behaviour.transfer import is_renaming
 from disting.model.symmetry import canonical, forms
 from tests.laws.strategies import chains
 

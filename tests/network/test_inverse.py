@@ -9,7 +9,7 @@ import pytest
 from disting import compare
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
-from disting.evidence.substitutes import AtInverse, Replacement
+from disting.evidence.general import AtInverse, Replacement
 from disting.general.any_model import of_network
 from disting.general.forms import by_inverse, confirms_forms
 from disting.network.families import family_of

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from disting.report.matrix import LETTER
-from disting.report.scene import Text
-from disting.report.svg import svg
+from disting.report.scene import Text, svg
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 from reports.paper.figures import of_decisions, of_scene, paper_figures, refit_figure, triangles

@@ -8,11 +8,11 @@ import numpy as np
 
 from disting import Engine, Sensor, network_of
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import damper_catalog
+from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.network_files import recall
-from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
+from disting.catalogs.sizes import SizesCatalog, sizes_catalog
 from disting.cli import main
-from disting.cli.parser import parser
+from disting.cli.run import parser
 from disting.cli.verdicts import list_of
 from disting.fit.judge.quantity import QuantityReading
 from disting.fit.networks import fit_networks

@@ -11,10 +11,10 @@ import pytest
 from PIL import Image, ImageChops
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
+from disting.catalogs.dampers import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.catalogs.sizes_files import sizes_catalog
-from disting.cli.parser import parser
+from disting.catalogs.sizes import sizes_catalog
+from disting.cli.run import parser
 from disting.report import write_report
 from disting.report.write import PAGES
 

@@ -10,18 +10,14 @@ import numpy as np
 import pytest
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import DamperFamily, damper_catalog, damper_family
-from disting.catalogs.dampers import DamperSets
+from disting.catalogs.dampers import DamperFamily, DamperSets, damper_catalog, damper_family
 from disting.errors import InputError
 from disting.report import damper_page
-from disting.report.damper_page import counts
-from disting.report.damper_payload import bits, mirror, number_classes, payload
-from disting.report.drawing import draw
+from disting.report.damper_page import bits, counts, mirror, number_classes, payload
+from disting.report.drawing import Drawing, draw, ground_dampers, share
 from disting.report.index import runs
-from disting.report.page_drawing import Drawing, ground_dampers, share
-from disting.report.scene import PAGE_PALETTE, Ink
+from disting.report.scene import PAGE_PALETTE, Ink, draw_layer
 from disting.report.search import families
-from disting.report.svg import draw_layer
 from disting.verdict.result import Relation
 
 

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import DamperFamily, damper_catalog
-from disting.catalogs.dampers import DamperSets
+from disting.catalogs.dampers import DamperFamily, DamperSets, damper_catalog
 from disting.conditions.rule import EXACT
 from disting.model.family import Family
 from disting.report import damper_page, write_report

@@ -16,7 +16,7 @@ from disting.report.fit.left_words import MEASURED_COLUMNS
 from disting.report.fit.network_page import COLUMNS as NETWORKS
 from disting.report.fit.write import COLUMNS as CANDIDATES
 from disting.report.model_list import COLUMNS as MODELS
-from disting.simulation.excitation import HEADER as SPECTRUM
+from disting.simulation.bench import HEADER as SPECTRUM
 from disting.verdict.next_words import CSV_COLUMNS as NEXT
 from tests.cli.process import called
 
@@ -57,10 +57,9 @@ def test_no_other_module_writes_a_table() -> None:
     }
     assert {"catalogs/export.py", "report/model_list.py", "report/fit/write.py"} <= found
     assert found <= {
-        "catalogs/catalog.py", "catalogs/damper_family.py", "catalogs/dampers.py",
-        "catalogs/decisions_text.py", "catalogs/export.py", "cli/dampers.py", "cli/next.py", "cli/verdicts.py",
+        "catalogs/catalog.py", "catalogs/dampers.py", "catalogs/export.py", "cli/dampers.py", "cli/next.py", "cli/verdicts.py",
         "measurement/files.py", "report/fit/network_page.py", "report/fit/plan_page.py", "report/fit/write.py",
-        "report/model_list.py", "report/write.py", "simulation/excitation.py",
+        "report/model_list.py", "report/write.py", "simulation/bench.py",
     }  # fmt: skip
 
 

@@ -11,14 +11,21 @@ import sympy
 from hypothesis import given, settings
 
 from disting.algebra.symbols import RationalFunction, variables
-from disting.behaviour.expansion import expand
+from disting.behaviour.transfer import expand
 from disting.catalogs import catalog
 from disting.equivalence.duplicates import Assignment
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.report.formulas import correspondence, transfer_function_parts, written_values
-from disting.report.mathml import expression, prime, summands, symbol
-from tests.algebra.test_rational_function import trees as rational_functions
+from disting.report.formulas import (
+    correspondence,
+    expression,
+    prime,
+    summands,
+    symbol,
+    transfer_function_parts,
+    written_values,
+)
+from tests.algebra.test_symbols import trees as rational_functions
 
 FAMILIES = [Family(n, damped) for n, damped in product((1, 2, 3, 4), (False, True))]
 

@@ -14,7 +14,7 @@ from hypothesis import given, strategies as st
 from markdown_it import MarkdownIt
 
 from disting.catalogs import catalog
-from disting.cli.parser import parser
+from disting.cli.run import parser
 from disting.errors import InputError
 from disting.model.chain import text_drawing
 from disting.model.family import Family

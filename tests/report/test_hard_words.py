@@ -15,8 +15,8 @@ from disting.measurement import FrequencyResponse
 from disting.report import index, model_page, page
 from disting.report.fit import fit_page
 from disting.report.fit.style import FigureFiles
-from disting.report.glossary import HARD, PAGE, hard_words
 from disting.report.guide import guide
+from disting.report.markdown import HARD, PAGE, hard_words
 
 from .fit.conftest import selection, starts, test, train  # noqa: F401
 

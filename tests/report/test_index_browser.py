@@ -12,16 +12,15 @@ import pytest
 
 from disting import Family, compare, network_of
 from disting.catalogs import Catalog, catalog
-from disting.catalogs.damper_family import damper_catalog
+from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.model.chain import Chain
 from disting.model.names import chain_of
 from disting.model.structure import violations
 from disting.model.symmetry import Symmetry, forms
 from disting.report import write_report
-from disting.report.describe_machine import descriptions, machines, part_name, parts
-from disting.report.drawing import draw
-from disting.report.index import index
+from disting.report.drawing import draw, part_name
+from disting.report.index import descriptions, index, machines, parts
 from disting.verdict.result import Relation
 from tests.report.barriers import barriers
 from tests.report.links import follow_link

@@ -11,15 +11,14 @@ import pytest
 from disting import Domain, Engine, Network, compare, network_of
 from disting.catalogs.network_files import recall
 from disting.cli.verdicts import list_of
-from disting.evidence.substitutes import Replacement
+from disting.evidence.general import Replacement
 from disting.general.any_model import of_network
 from disting.general.identifiability import local_identifiability
 from disting.network.exact import within
 from disting.network.families import FAMILIES
 from disting.report.ladenheim import classes, is_canonical, ladenheim_page, open_pairs
-from disting.report.listed_model import listed_model_page
 from disting.report.listing import Listing, judge
-from disting.report.model_list import model_list_page, write_model_list
+from disting.report.model_list import listed_model_page, model_list_page, write_model_list
 from tests.report.outline import Outline
 from tests.report.test_hard_words import unexplained
 

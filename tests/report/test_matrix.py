@@ -10,9 +10,9 @@ from PIL import Image
 from disting.catalogs import Catalog, catalog
 from disting.report import matrix_png, matrix_svg
 from disting.report.index import thumbnail
-from disting.report.matrix import WIDEST_PNG, figure, has_slides, slide, slide_png
+from disting.report.matrix import WIDEST_PNG, figure, has_slides, sign, slide, slide_png
 from disting.report.scene import Ink, Rect, Text, extent
-from disting.report.words import VIEW_TITLES, sign, totals
+from disting.report.words import VIEW_TITLES, totals
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 from tests.report.shapes import meet

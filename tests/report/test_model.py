@@ -7,8 +7,8 @@ import pytest
 from disting.catalogs import Catalog, catalog
 from disting.conditions.inclusion import Inclusion
 from disting.evidence.positive import Share
-from disting.report.domains import one_sided_pairs
 from disting.report.model import limits, model_page, reasons_apart, relation_from
+from disting.report.payload import one_sided_pairs
 from disting.verdict.query import View
 from disting.verdict.result import Relation
 from tests.report.outline import Outline

@@ -24,9 +24,14 @@ from disting.general.global_identifiability import IDENTIFIABILITY
 from disting.general.model_files import models_of
 from disting.report import write_family
 from disting.report.formulas import written_model
-from disting.report.listed_model import listed_model_page
 from disting.report.listing import Listing, judge
-from disting.report.model_list import list_pages, model_list_page, page_name, write_model_list
+from disting.report.model_list import (
+    list_pages,
+    listed_model_page,
+    model_list_page,
+    page_name,
+    write_model_list,
+)
 from tests.cli.process import called
 from tests.report.outline import Outline
 

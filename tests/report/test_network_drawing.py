@@ -16,9 +16,14 @@ from disting import Network, network_of
 from disting.model.chain import Chain
 from disting.network.families import FAMILIES
 from disting.report import network_png, network_svg
-from disting.report.circuit_drawing import Part, series_parallel
-from disting.report.graph_drawing import RADIUS
-from disting.report.network_drawing import describe_network, draw_network, scene_of
+from disting.report.network_drawing import (
+    RADIUS,
+    Part,
+    describe_network,
+    draw_network,
+    scene_of,
+    series_parallel,
+)
 from disting.report.scene import Ink, Path, Text, extent
 from tests.cli.process import called
 from tests.network.drawn import built, descriptions

@@ -19,7 +19,7 @@ from disting.network import network_of
 from disting.network.families import family_of
 from disting.report.listing import Listing, judge
 from disting.report.model_list import write_model_list
-from disting.report.network_motion import (
+from disting.report.motion import (
     drawing_of,
     machine_of,
     motion_page_of,

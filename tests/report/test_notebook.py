@@ -30,14 +30,14 @@ from disting import (
     network_of,
 )
 from disting.catalogs.next_files import next_catalog
-from disting.catalogs.sizes_files import sizes_catalog
+from disting.catalogs.sizes import sizes_catalog
 from disting.fit import figure_1, plan, predict, select
 from disting.fit.networks import fit_networks
 from disting.measurement import FrequencyResponse, look, write_csv
 from disting.model.presentation import NotebookTable
 from disting.questions.identifiability.analysis import identifiability
 from disting.report import chain_svg
-from disting.report.notebook.network_tables import table_of
+from disting.report.notebook.tables import table_of
 
 mpl.use("Agg")
 DRIVE = Chain(2, damped=True, ground_dampers=(1,))

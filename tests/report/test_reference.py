@@ -5,7 +5,7 @@ import inspect
 
 import pytest
 
-from disting.cli.parser import parser
+from disting.cli.run import parser
 from disting.report.reference.commands import command_page, commands
 from disting.report.reference.entries import Entry, Kind, entries
 from disting.report.reference.python_pages import MODULES, as_html, python_pages

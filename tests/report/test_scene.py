@@ -9,6 +9,7 @@ from PIL import Image
 from disting.report.png import png
 from disting.report.scene import (
     FILE_PALETTE,
+    NAMESPACE,
     PAGE_PALETTE,
     Circle,
     Ink,
@@ -19,8 +20,8 @@ from disting.report.scene import (
     Text,
     arrow,
     extent,
+    svg,
 )
-from disting.report.svg import NAMESPACE, svg
 
 SCENE = Scene(
     40,

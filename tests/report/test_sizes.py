@@ -14,7 +14,7 @@ from PIL import Image
 
 import disting
 from disting.catalogs import catalog
-from disting.catalogs.sizes_files import SizesCatalog, sizes_catalog
+from disting.catalogs.sizes import SizesCatalog, sizes_catalog
 from disting.conditions.inclusion import Inclusion
 from disting.report import write_report
 from disting.report.search import families

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from disting.catalogs import catalog
-from disting.catalogs.damper_family import damper_family
+from disting.catalogs.dampers import damper_family
 from disting.report import write_report
 from disting.report.write import PAGES
 

@@ -25,7 +25,7 @@ from disting.simulation import (
     matrices,
     simulate,
 )
-from disting.simulation.excitation import read_spectrum
+from disting.simulation.bench import read_spectrum
 
 BENCH = Bench(sampling_rate=1000.0, samples=1000, periods=3)
 BAND = Excitation(low=5.0, high=200.0)

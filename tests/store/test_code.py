@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from disting.store.code import digest, modules_of
+from disting.store.store import digest, modules_of
 
 ROOT = Path(find_spec("disting").origin).parents[1]
 
@@ -93,7 +93,7 @@ def test_a_change_of_the_ports_in_the_chain_model_changes_the_key_of_estimates(t
 
 
 def digest_of(folder):
-    command = "from disting.store.code import digest; print(digest('disting.fit.search.exchange'))"
+    command = "from disting.store.store import digest; print(digest('disting.fit.search.exchange'))"
     done = subprocess.run(
         [sys.executable, "-c", command],
         cwd=folder,

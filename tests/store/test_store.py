@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from disting.errors import InputError
-from disting.store.database_file import APPLICATION_ID, SCHEMA_VERSION
-from disting.store.store import Store
+from disting.store.store import APPLICATION_ID, SCHEMA_VERSION, Store
 from tests.store.store_tools import TEN, aside, cache_warnings, keeps_nothing, overwrite, works
 from tests.store.store_worker import items, key
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from disting.store.database_file import SCHEMA, SCHEMA_VERSION
-from disting.store.store import CacheWarning, Store
+from disting.store.store import SCHEMA, SCHEMA_VERSION, CacheWarning, Store
 from tests.store.store_tools import (
     TEN,
     alter,

@@ -8,7 +8,7 @@ import pytest
 
 from disting import Certainty, Chain, Engine, Finding, Relation
 from disting.algebra.certainty import LEAST_SAFETY
-from disting.catalogs.damper_family import damper_family
+from disting.catalogs.dampers import damper_family
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.conditions.sufficient import condition_8, condition_9

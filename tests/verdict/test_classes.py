@@ -24,8 +24,7 @@ from disting import (
     catalog,
     compare,
 )
-from disting.catalogs.damper_family import DamperFamily, damper_family
-from disting.catalogs.dampers import DamperSets, dampers
+from disting.catalogs.dampers import DamperFamily, DamperSets, damper_family, dampers
 from disting.conditions.finding import Outcome
 from disting.conditions.rule import EXACT
 from disting.errors import ContradictionError

@@ -12,11 +12,17 @@ from hypothesis import Phase, given, settings, strategies as st
 from disting import Engine, Experiment, Family, Query, Sensor, View, verify
 from disting.algebra.certainty import Certainty
 from disting.evidence.decision import THEOREMS, Exclusion, Theorem
+from disting.evidence.general import AtInverse, OfPart, Replacement
 from disting.evidence.kind import is_well_typed, read
 from disting.evidence.kinds import Evidence, InclusionEvidence
-from disting.evidence.positive import Empirical, PositiveEvidence, PositiveFinding, Share
-from disting.evidence.real import BothWays, RealWitnesses
-from disting.evidence.substitutes import AtInverse, OfPart, Replacement
+from disting.evidence.positive import (
+    BothWays,
+    Empirical,
+    PositiveEvidence,
+    PositiveFinding,
+    RealWitnesses,
+    Share,
+)
 from disting.experiments.experiment import MeasuredChain
 from disting.general.model_files import read_models
 from disting.verdict.cascade import decide

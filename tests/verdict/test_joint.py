@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Engine, Family, Query, View
-from disting.catalogs.decisions_text import decisions_json
+from disting.catalogs.export import decisions_json
 from disting.verdict.classes import Classes
 from disting.verdict.joint import classes_safety, family_safety
 

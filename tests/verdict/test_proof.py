@@ -22,9 +22,9 @@ from disting import (
 from disting.algebra.determinants import OutOfTimeError, rank
 from disting.algebra.symbols import symbols
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expansion import coefficients_have_rank, rank_is_at_most
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
+from disting.behaviour.transfer import coefficients_have_rank, rank_is_at_most
 from disting.general.any_model import of_network
 from disting.model.question import Settings
 from disting.verdict.comparison import prove, prove_all
@@ -97,7 +97,7 @@ def test_markov_ranks_are_proven_too(model):
 
 def _oracle_rows(structure, labels):
     """Gradients of Markov parameters by SymPy, as polynomials after clearing denominators."""
-    from disting.behaviour.expansion import expand
+    from disting.behaviour.transfer import expand
 
     whole = expand(structure)
     s = sympy.Symbol("s")

@@ -21,9 +21,14 @@ from math import ceil
 from time import process_time
 
 from disting.algebra.certainty import about, residues
-from disting.algebra.groebner.elimination import Basis, TooLarge, basis_steps
+from disting.algebra.groebner.elimination import (
+    Basis,
+    TooLarge,
+    basis_steps,
+    free_variable,
+    solution,
+)
 from disting.algebra.groebner.modular import Sparse
-from disting.algebra.groebner.points import free_variable, solution
 from disting.errors import ContradictionError, InputError, NotSeenError
 from disting.evidence.ideals import Refutation, Solutions
 from disting.evidence.kinds import Decision

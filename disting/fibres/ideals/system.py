@@ -31,7 +31,7 @@ from flint import fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.certainty import digest
 from disting.algebra.symbols import rename_symbols, symbols
-from disting.behaviour.expansion import expand
+from disting.behaviour.transfer import expand
 from disting.errors import InputError
 from disting.model.row import Row, rows_of
 from disting.model.structure import Structure

@@ -16,7 +16,7 @@ from itertools import groupby
 
 import numpy as np
 
-from disting.algebra.content import full_text
+from disting.algebra.certainty import full_text
 from disting.fit.search.containment import contains
 from disting.fit.search.estimate import (
     Estimate,
@@ -31,8 +31,8 @@ from disting.fit.search.neighbours import neighbours
 from disting.fit.search.starts import bare, merge, shorten
 from disting.model.chain import Chain
 from disting.store import Store
-from disting.store.code import digest
 from disting.store.scheduling import map_tasks
+from disting.store.store import digest
 
 # every so many candidates that exchange divide their starts into one part more, up to so many parts
 FELLOWS, PARTS = 8, 6

@@ -5,7 +5,7 @@ identities; no search for formulas.
 from dataclasses import replace
 
 from disting.algebra.quotient import matrix
-from disting.behaviour.expansion import is_renaming
+from disting.behaviour.transfer import is_renaming
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import fraction, target
 from disting.model.chain import Chain

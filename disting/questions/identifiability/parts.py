@@ -10,8 +10,7 @@ from math import ceil, log2
 from typing import cast
 
 from disting.algebra.certainty import Certainty, Size
-from disting.algebra.notation import latex, text
-from disting.algebra.symbols import Scalar, Term
+from disting.algebra.symbols import Scalar, Term, latex, text
 from disting.model.question import Answer
 
 Exponents = tuple[tuple[str, int], ...]

@@ -32,7 +32,8 @@ from disting.behaviour.chain_model import degrees
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding
-from disting.evidence.across_sizes import (
+from disting.evidence.conditions import Counts
+from disting.evidence.limits import (
     Limit,
     LimitFibre,
     Meeting,
@@ -40,7 +41,6 @@ from disting.evidence.across_sizes import (
     RowLimit,
     TooLarge,
 )
-from disting.evidence.conditions import Counts
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.question import Answerer, Settings

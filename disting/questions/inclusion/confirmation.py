@@ -5,30 +5,27 @@ from math import comb
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Representation, samples
-from disting.evidence.across_sizes import (
-    AcrossSizes,
-    Limit,
-    LimitFibre,
-    Meeting,
-    PoleSharing,
-    RowLimit,
-    TooLarge,
-)
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refutation, Solutions
-from disting.evidence.kind import Labels
+from disting.evidence.kind import POINTS, Labels
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import (
+    AcrossSizes,
     FullImage,
     LargerProjection,
+    Limit,
+    LimitFibre,
+    Meeting,
     Minor,
     MissingElements,
     Outside,
+    PoleSharing,
     RelativeDegrees,
+    RowLimit,
     RowsInside,
+    TooLarge,
 )
-from disting.evidence.model_samples import POINTS
 from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalise
 from disting.model.chain import Chain, Sensor
 from disting.model.question import Membership

@@ -20,8 +20,7 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, grade_of
-from disting.algebra.content import full_text
+from disting.algebra.certainty import LEAST_SAFETY, Certainty, Grade, full_text, grade_of
 from disting.errors import InputError, short
 from disting.evidence.decision import Exclusion
 from disting.evidence.positive import BoxMap, Empirical, Points, PositiveFinding, Share

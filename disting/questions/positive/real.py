@@ -46,8 +46,7 @@ from collections.abc import Iterator
 
 from flint import acb, ctx
 
-from disting.algebra.certainty import residues
-from disting.algebra.content import full_text
+from disting.algebra.certainty import full_text, residues
 from disting.evidence.kind import PointText
 from disting.fibres.synthesis.branch import Ball, Imprecise, Poly, product, roots, shift, splits
 from disting.fibres.synthesis.task import Point, Target, target

@@ -6,14 +6,12 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from disting.behaviour.chain_model import ChainModel
-from disting.behaviour.expansion import is_renaming
+from disting.behaviour.transfer import is_renaming
 from disting.conditions.finding import Finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, NoShares, Refutation, Solutions
-from disting.evidence.kind import Kind
-from disting.evidence.model_samples import ModelSamples, SampledPair, samples_of
-from disting.evidence.positive import Share
-from disting.evidence.real import BothWays, OddFibres, RealFactors, RealWitnesses
+from disting.evidence.kind import Kind, ModelSamples, SampledPair, samples_of
+from disting.evidence.positive import BothWays, OddFibres, RealFactors, RealWitnesses, Share
 from disting.fibres.ideals import (
     MOST,
     coefficient_map,

@@ -31,8 +31,7 @@ from disting.evidence.conditions import Renaming
 from disting.evidence.decision import RATIONAL, Theorem
 from disting.evidence.kind import PointText
 from disting.evidence.kinds import Evidence
-from disting.evidence.positive import PositiveFinding, Share
-from disting.evidence.real import OddFibres, RealFactors, RealWitnesses
+from disting.evidence.positive import OddFibres, PositiveFinding, RealFactors, RealWitnesses, Share
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings
 from disting.questions.identifiability.answer import Identifiability

@@ -9,13 +9,11 @@ from disting.fit.results.selection import Selection
 from disting.fit.search.setup import Setup, port
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
-from disting.report.drawing import draw
-from disting.report.experiment_drawing import Port, state
+from disting.report.drawing import Port, draw, state
 from disting.report.fit.residuals import bands_in_words
 from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import fit_in_words
-from disting.report.scene import PAGE_PALETTE, Scene
-from disting.report.svg import body, number
+from disting.report.scene import PAGE_PALETTE, Scene, body, number
 
 PANELS = 2  # of a response: Bode diagram and residuals
 

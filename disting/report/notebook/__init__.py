@@ -9,18 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from disting.algebra.notation import Expr
-from disting.behaviour.expansion import transfer_function
+from disting.algebra.symbols import Expr
+from disting.behaviour.transfer import transfer_function
 from disting.export import state_space, to_control
 from disting.fit.search.data import check_range
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain
-from disting.model.state_space import StateSpace
+from disting.model.chain import Chain, StateSpace
 from disting.network.network import Network
 from disting.report.drawing import chain_svg
 from disting.report.network_drawing import network_svg
-from disting.report.notebook.network_tables import table_of  # with those of `tables`
 from disting.report.notebook.plots import drawn_on
+from disting.report.notebook.tables import table_of  # with those of `tables`
 from disting.simulation.mechanics import check_values, frequency_response
 from disting.statistics.scatter import scatter
 

@@ -13,7 +13,7 @@ from disting.fit.search.candidates import reference
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.report.fit.words import response_unit
-from disting.report.notebook.markup import FILLS
+from disting.report.notebook.tables import FILLS
 from disting.report.scene import FILE_PALETTE
 from disting.report.words import SAID, title
 from disting.verdict.result import Relation

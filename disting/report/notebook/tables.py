@@ -1,22 +1,30 @@
-"""Each kind of object as tables and sentences of a notebook."""
+"""Each kind of object as tables and sentences of a notebook.
 
-from collections.abc import Iterator
+Lists of models and networks have tables too: candidates before a fit, what is the same, which
+explain a measurement. Each piece of HTML is complete in itself, without a style sheet, in the
+notebook's own colours wherever a colour means nothing.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import singledispatch
 from typing import Any
 
 import numpy as np
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from disting.catalogs import Catalog
-from disting.catalogs.sizes_files import SizesCatalog
+from disting.catalogs.sizes import SizesCatalog
 from disting.conditions.inclusion import Inclusion
 from disting.equivalence import Equivalents
+from disting.equivalence.duplicates import Duplicate, Gate
 from disting.evidence.positive import PositiveFinding
 from disting.fit import Candidate, Selection
 from disting.fit.judge.explanation import Level
+from disting.fit.results.networks import NetworkSelection
 from disting.fit.search.candidates import reference
 from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
 from disting.measurement import FrequencyResponse, Look
+from disting.measurement.arrays import Real
 from disting.measurement.look_text import fact_rows
 from disting.model.family import Family
 from disting.planning.power import Plan, is_trusted
@@ -25,13 +33,105 @@ from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance
 from disting.report.fit.sentences import quantity_rows
 from disting.report.fit.words import name, readable, response_unit, typeset
-from disting.report.notebook.markup import LONGEST, block, curve, facts, line, matrix, more, table
-from disting.report.words import headline, plural, raise_exponents, title
+from disting.report.scene import FILE_PALETTE, Ink, Layer, Path, Scene, svg
+from disting.report.words import SAID, headline, plural, raise_exponents, title
 from disting.verdict.decisions import Decisions
 from disting.verdict.meaning import meaning_sentence as measured
+from disting.verdict.model_equivalents import ModelEquivalent
 from disting.verdict.next_experiments import Menu
 from disting.verdict.next_words import AnyMenu, anywhere, conclusion
 from disting.verdict.result import Relation, Verdict
+
+WIDTH, HEIGHT, EDGE = 280.0, 90.0, 6.0
+MOST = 400  # points
+
+
+def curve(x: Real, y: Real, title: str) -> str:
+    """Stand-alone SVG of positive values over rising positive places, shape (n,) each."""
+    at = np.unique(np.linspace(0, len(x) - 1, min(len(x), MOST)).astype(int))
+    across, up = (_scaled(np.log(values[at])) for values in (x, y))
+    points = tuple(
+        (EDGE + (WIDTH - 2 * EDGE) * float(a), HEIGHT - EDGE - (HEIGHT - 2 * EDGE) * float(b))
+        for a, b in zip(across, up, strict=True)
+    )
+    return svg(Scene(WIDTH, HEIGHT, (Layer("curve", (Path(points, Ink.SENSOR),)),), title))
+
+
+def _scaled(values: Real) -> Real:
+    """From 0 to 1; 1/2 where they are all the same."""
+    span = float(np.ptp(values))
+    return np.asarray((values - values.min()) / span if span else np.full(len(values), 0.5))
+
+
+LONGEST = 12  # rows, columns or drawings that are shown of many
+FILLS = {
+    Relation.DISTINGUISHABLE: (Ink.DISTINGUISHABLE, Ink.ON_DISTINGUISHABLE, "≠"),
+    Relation.INDISTINGUISHABLE: (Ink.INDISTINGUISHABLE, Ink.ON_INDISTINGUISHABLE, "="),
+    Relation.SOMETIMES: (Ink.SOMETIMES, Ink.ON_SOMETIMES, "≈"),
+    Relation.UNDECIDED: (Ink.UNDECIDED, Ink.PAPER, "?"),
+}
+"""Ground, letter and sign of a relation: the colours of the pages, and a sign beside them."""
+
+
+def block(*parts: str) -> str:
+    """Parts below each other."""
+    return Markup("<div>{}</div>").format(Markup("").join(p for p in parts if p))
+
+
+def line(text: str, *, bold: bool = False) -> Markup:
+    """A line of text, escaped."""
+    inside = Markup("<strong>{}</strong>").format(text) if bold else escape(text)
+    return Markup("<p>{}</p>").format(inside)
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> Markup:
+    """A table; cells that are Markup stay as they are."""
+    top = Markup("").join(Markup("<th>{}</th>").format(h) for h in head)
+    body = Markup("").join(
+        Markup("<tr>{}</tr>").format(Markup("").join(map(_cell, row))) for row in rows
+    )
+    return Markup("<table><thead><tr>{}</tr></thead><tbody>{}</tbody></table>").format(top, body)
+
+
+def facts(rows: Iterable[tuple[str, object]]) -> Markup:
+    """Names and what they are; those without are left out."""
+    body = Markup("").join(
+        Markup("<tr><th>{}</th>{}</tr>").format(name, _cell(value)) for name, value in rows if value
+    )
+    return Markup("<table><tbody>{}</tbody></table>").format(body)
+
+
+def matrix(names: Sequence[str], relation: Callable[[int, int], Relation]) -> Markup:
+    """The relations of models counted from 0, the first `LONGEST` of them, with a legend."""
+    shown = range(min(len(names), LONGEST))
+    rows = (
+        (Markup("<strong>{}</strong>").format(names[i]), *(_field(i, j, relation) for j in shown))
+        for i in shown
+    )
+    return table(["", *(names[j] for j in shown)], rows) + line(
+        ", ".join(f"{sign} {SAID[r]}" for r, (_, _, sign) in FILLS.items())
+    )
+
+
+def more(total: int, what: str, hint: str) -> Markup:
+    """That the first of many are shown, and what shows the rest; nothing where all are."""
+    return line(f"The first {LONGEST} of {total} {what}. {hint}") if total > LONGEST else Markup("")
+
+
+def _field(i: int, j: int, relation: Callable[[int, int], Relation]) -> Markup:
+    if i == j:
+        return Markup("<td></td>")
+    the_relation = relation(i, j)
+    ground, letter, sign = FILLS[the_relation]
+    style = f"text-align:center;background:{FILE_PALETTE[ground]};color:{FILE_PALETTE[letter]}"
+    return Markup('<td style="{}" title="{}">{}</td>').format(style, SAID[the_relation], sign)
+
+
+def _cell(value: object) -> Markup:
+    if isinstance(value, Markup) and value.startswith("<td"):
+        return value
+    return Markup('<td style="text-align:left">{}</td>').format(value)
+
 
 COLUMNS = (
     "misfit: J, of data that a fit has not seen; badly known: condition index, critical above 30;"
@@ -322,3 +422,42 @@ def _plan(shown: Plan) -> str:
         ("doubt", "" if is_trusted(shown) else "the rival's best fit may not have been found"),
     ]
     return block(line(f"To tell {model} from {rival}", bold=True), facts(rows))
+
+
+@table_of.register
+def _gate(shown: Gate) -> str:
+    groups = [(group[0], ", ".join(group[1:])) for group in shown.groups]
+    rows = [(name, identifiability.sentence) for name, identifiability in shown.parameters.items()]
+    return block(
+        line(f"{plural(len(rows), 'model')} to be fitted", bold=True),
+        table(["model", "what data determine"], rows[:LONGEST]),
+        table(["kept", "the same"], groups[:LONGEST]) if groups else "",
+    )
+
+
+@table_of.register
+def _duplicate(shown: Duplicate) -> str:
+    parts = [line(shown.verdict.sentence, bold=True)]
+    for f in shown.formulas:
+        parts += [line(f"where {', '.join(f.where)}")] if f.where else []
+        parts.append(facts((*f.steps, *f.values)))
+    return block(*parts)
+
+
+@table_of.register
+def _equivalent(shown: ModelEquivalent) -> str:
+    _, sets = shown.sets
+    return block(
+        line(shown.verdict.sentence, bold=True),
+        *(facts((name, str(value)) for name, value in entries.items()) for _, entries in sets),
+    )
+
+
+@table_of.register
+def _networks(shown: NetworkSelection) -> str:
+    rows = [(f.network.name, readable(f.chi2), f.excluded_by) for f in shown.fits]
+    return block(
+        line(shown.sentence, bold=True),
+        table(["network", "chi2 per line", "excluded by"], rows[:LONGEST]),
+        more(len(rows), "networks", "fits has all."),
+    )

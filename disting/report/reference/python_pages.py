@@ -16,8 +16,7 @@ from markupsafe import Markup, escape
 
 from disting.report.environment import render
 from disting.report.markdown import GuidePage, Section
-from disting.report.reference.entries import Argument, Entry, entries
-from disting.report.reference.modules import Place, definition, parse
+from disting.report.reference.entries import Argument, Entry, Place, definition, entries, parse
 
 PLAIN = (
     ["emphasis", "link", "image", "autolink", "escape", "entity", "html_inline"],

@@ -6,9 +6,8 @@ import pytest
 import sympy
 from hypothesis import given, settings, strategies as st
 
-from disting.algebra.groebner.elimination import TooLarge, basis_steps
+from disting.algebra.groebner.elimination import TooLarge, basis_steps, free_variable, solution
 from disting.algebra.groebner.modular import Order
-from disting.algebra.groebner.points import free_variable, solution
 from disting.fibres.ideals.confirm import reaches_one
 
 P = 10007

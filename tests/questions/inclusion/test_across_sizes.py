@@ -10,7 +10,9 @@ import pytest
 
 from disting import Chain, Engine, Family, Inclusion, Query, compare
 from disting.conditions.inclusion import Sense
-from disting.evidence.across_sizes import (
+from disting.evidence.conditions import Counts
+from disting.evidence.ideals import Solutions
+from disting.evidence.limits import (
     Limit,
     LimitFibre,
     Meeting,
@@ -18,8 +20,6 @@ from disting.evidence.across_sizes import (
     RowLimit,
     TooLarge,
 )
-from disting.evidence.conditions import Counts
-from disting.evidence.ideals import Solutions
 from disting.model.symmetry import canonical
 from disting.questions.inclusion.across_sizes import by_sizes, exceeds, show_inclusion, twins
 from disting.questions.inclusion.confirmation import confirms

@@ -8,7 +8,7 @@ import pytest
 
 from disting import Chain, Family, Query, Relation, View, compare
 from disting.evidence.kinds import evidence_from
-from disting.evidence.real import RealFactors
+from disting.evidence.positive import RealFactors
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Status, target
 from disting.model.question import Answer
