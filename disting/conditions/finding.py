@@ -75,6 +75,11 @@ class Finding:
         raise TypeError("a finding is not true or false; look at its outcome")
 
     @property
+    def is_known(self) -> bool:
+        """Whether the rule was not given up."""
+        return self.outcome is not Outcome.ABANDONED
+
+    @property
     def turned(self) -> Self:
         """The finding on the pair in the other order."""
         return self if self.evidence is None else replace(self, evidence=self.evidence.turned)

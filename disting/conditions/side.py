@@ -12,7 +12,7 @@ from disting.algebra.certainty import full_text, prime
 from disting.algebra.colouring import Colouring, colouring
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding
+from disting.conditions.finding import Finding, positive_ways
 from disting.conditions.inclusion import Inclusions
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
@@ -255,6 +255,13 @@ class Side(ABC, Generic[S]):
 
 AnySide = Side[Any]
 """One of whatever family."""
+
+
+def by_shares_both_ways(left: AnySide, right: AnySide) -> Finding:
+    """Over positive parameters, of models that are the same over complex ones: from the shares of
+    either that have a positive equivalent in the other.
+    """
+    return positive_ways(left.positive(right), right.positive(left))
 
 
 def notes_of(left: AnySide, right: AnySide) -> tuple[str, ...]:

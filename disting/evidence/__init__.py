@@ -2,7 +2,5 @@
 
 A kind of evidence is a class here, which says all of it: its fields, how they are stored, its
 words, which rules may carry it and what it shows (`kind`). `kinds` lists those that verdicts and
-inclusions may rest on. They are checked anew where the means are:
-`questions.same.evidence_check`, `questions.inclusion.confirmation`,
-`questions.positive.confirmation`.
+inclusions may rest on. How each is checked anew is looked up in the tables of `disting.decide`.
 """

@@ -53,6 +53,7 @@ RATIONAL = ("symmetry", "duality", "gears")
 GEARS = "gears"
 """That of `disting.network.gears`."""
 INTERLACING = "interlacing"
+ONE_PORTS = "Foster and Cauer"
 REPLACEMENT = "replacement"
 """The theorem on networks of `disting.network.normal_form`."""
 

@@ -219,6 +219,11 @@ class PositiveFinding:
     def __bool__(self) -> bool:
         raise TypeError("a finding is not true or false; look at its share")
 
+    @property
+    def is_known(self) -> bool:
+        """Whether something was found."""
+        return self.share is not Share.UNKNOWN
+
     def sentence(self, source: str, other: str) -> str:
         """What is known and why; a sampled share is called empirical."""
         if self.evidence is None:

@@ -58,6 +58,12 @@ from disting.algebra.certainty import (
 )
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.decide import (
+    SAME_MEASURED,
+    SAME_MEASURED_QUICKLY,
+    SHARE_MEASURED,
+    first_finding,
+)
 from disting.evidence.positive import Empirical, OnlyOne, Points, PositiveFinding, Share
 from disting.experiments.equal_machines import same_by_rows
 from disting.experiments.experiment import MeasuredChain
@@ -84,6 +90,10 @@ TRIES = 12  # points
 SCALES = 4  # each coordinate is 2^-4, .., 2^4 times a number between 1/2 and 2
 NO_LIST = "the equivalents under these experiments cannot be listed"
 ONE_KIND = "all points that were tried are of one kind, and no argument for all of them is known"
+LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=SAFETY)
+SHARED = 10  # bits: a table rests on up to a thousand findings, and says nothing below LEAST_SAFETY
+QUICK = replace(LIMITS, entries=1_000_000, safety=LEAST_SAFETY + SHARED)
+"""A matrix takes a second or two: there are hundreds of pairs."""
 
 
 def positive_finding(
@@ -91,6 +101,14 @@ def positive_finding(
 ) -> PositiveFinding:
     """Which positive models of `machine` have a positive equivalent in `other`."""
     machine, other = without_dead_time(machine), without_dead_time(other)
+    finding: PositiveFinding = first_finding(SHARE_MEASURED.rows, machine, other, settings)
+    return finding
+
+
+def by_one_experiment(
+    machine: MeasuredChain, other: MeasuredChain, settings: Settings
+) -> PositiveFinding | None:
+    """What one experiment alone says for all of them."""
     for at in range(len(machine.experiments)):
         chain, other_chain = machine.alone(at), other.alone(at)
         if chain is not None and other_chain is not None:
@@ -99,7 +117,7 @@ def positive_finding(
             )
             if finding is not None:
                 return finding
-    return _by_points(machine, other, settings)
+    return None
 
 
 def _by_one(chain: Chain, other: Chain, number: int, settings: Settings) -> PositiveFinding | None:
@@ -116,7 +134,8 @@ def _by_one(chain: Chain, other: Chain, number: int, settings: Settings) -> Posi
     return PositiveFinding(Share.ALWAYS, certainty, safety, OnlyOne(number))
 
 
-def _by_points(machine: MeasuredChain, other: MeasuredChain, settings: Settings) -> PositiveFinding:
+def by_points(machine: MeasuredChain, other: MeasuredChain, settings: Settings) -> PositiveFinding:
+    """Random points: one with a positive equivalent and one without."""
     seen = list(_seen(machine, other, settings.seed))
     if not seen:
         return PositiveFinding(Share.UNKNOWN, reason=NO_LIST)
@@ -220,26 +239,20 @@ def _unions(parts: Sequence[int]) -> Iterator[list[int]]:
             yield [i for first, last in chosen for i in range(first, last)]
 
 
-LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=SAFETY)
-SHARED = 10  # bits: a table rests on up to a thousand findings, and says nothing below LEAST_SAFETY
-QUICK = replace(LIMITS, entries=1_000_000, safety=LEAST_SAFETY + SHARED)
-"""A matrix takes a second or two: there are hundreds of pairs."""
-
-
 def exact_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:
     """The finding for two measured chains of equal ranks and degrees; dead times are equal where
     conditions 1 to 3 hold, and a factor of their own.
     """
-    finding = by_list(left, right, settings)
-    return by_ideals(left, right, settings, LIMITS) if finding is None else finding
+    finding: Finding = first_finding(SAME_MEASURED.rows, left, right, settings)
+    return finding
 
 
 def by_ideals(
-    left: MeasuredChain, right: MeasuredChain, settings: Settings, limits: Limits
+    left: MeasuredChain, right: MeasuredChain, settings: Settings, limits: Limits | None = None
 ) -> Finding:
     """What the ideal of one fibre of the stacked map says."""
     maps = match_maps(left, right)
-    decision = decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=limits)
+    decision = decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=limits or LIMITS)
     return as_finding(decision)
 
 
@@ -247,12 +260,23 @@ def quick_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings)
     """One of many decisions on the same chains; it names no evidence where rows or parts
     decide.
     """
-    if same_by_rows(left, right):
-        return Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN)
-    finding = by_list(left, right, settings, shared=True)
-    if finding is None:
-        finding = by_parts(left, right, settings)
-    return by_ideals(left, right, settings, QUICK) if finding is None else finding
+    finding: Finding = first_finding(SAME_MEASURED_QUICKLY.rows, left, right, settings)
+    return finding
+
+
+def by_rows(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding | None:
+    """Rows that show the same."""
+    return Finding(EXACT, Outcome.HOLDS, Certainty.PROVEN) if same_by_rows(left, right) else None
+
+
+def by_shared_list(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding | None:
+    """A list of equivalents at a point that all places of a menu share."""
+    return by_list(left, right, settings, shared=True)
+
+
+def by_small_ideals(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> Finding:
+    """The ideals within limits that are soon reached."""
+    return by_ideals(left, right, settings, QUICK)
 
 
 QUICKLY = Question(

@@ -14,10 +14,12 @@ all of them together has the larger one.
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import cache
 
 from disting.algebra.certainty import Certainty, grade_of
 from disting.behaviour.profile import Profile
 from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
+from disting.decide import CLOSURE_MEASURED, first_finding
 from disting.evidence.conditions import Counts
 from disting.evidence.limits import LargerProjection, MissingElements
 from disting.experiments.experiment import Experiment, MeasuredChain
@@ -42,10 +44,13 @@ def inclusions_under(
     """Both statements on two measured chains of unequal rank; equivalents are not looked for where
     limits are not excluded.
     """
+    profile_of = cache(profile_of)
     ranks = [profile_of(m).rank for m in (left, right)]
     first = ranks[0] < ranks[1]
     small, large = order(left, right, first)
-    closure = next(_found(small, large, profile_of, first), None)
+    closure: InclusionFinding | None = first_finding(
+        CLOSURE_MEASURED.rows, small, large, profile_of, first
+    )
     if closure is None:
         closure = InclusionFinding(Inclusion.UNKNOWN, reason=NOT_SETTLED)
     if closure.inclusion is Inclusion.NEITHER:
@@ -134,33 +139,45 @@ def _changes(
     return done
 
 
-def _found(
+def of_missing_elements(
     small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
-) -> Iterator[InclusionFinding]:
-    """Yield what settles CLOSURE, the cheapest first."""
-    yield from (by_missing_elements(places, first) for places in places_in(small, large))
-    if small.chain.dead_time and not large.chain.dead_time:
-        yield without_dead_time(first)
-    mine, theirs = profile_of(small), profile_of(large)
-    pairs = list(zip(_pairs(mine), _pairs(theirs), strict=True))
-    for smaller, larger in pairs:
+) -> InclusionFinding | None:
+    """Elements that vanish or grow without bound, in all experiments."""
+    places = next(places_in(small, large), None)
+    return None if places is None else by_missing_elements(places, first)
+
+
+def of_dead_time(
+    small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
+) -> InclusionFinding | None:
+    """A dead time of the one of smaller rank alone."""
+    is_alone = small.chain.dead_time and not large.chain.dead_time
+    return without_dead_time(first) if is_alone else None
+
+
+def of_degrees(
+    small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
+) -> InclusionFinding | None:
+    """An experiment in which the degrees exceed those of limits."""
+    for smaller, larger in _degree_pairs(small, large, profile_of):
         if exceed(smaller, larger):
             counts = Counts(*order(smaller, larger, first))
-            yield InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
-    if any(smaller[1] != larger[1] for smaller, larger in pairs):
-        return
-    yield from _by_one_experiment(small, large, profile_of, first)
-    finding = by_profiles(mine, theirs, left_is_smaller=first)
-    if finding is not None:
-        yield finding
+            return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
+    return None
 
 
-def _by_one_experiment(
+def have_equal_poles(
     small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
-) -> Iterator[InclusionFinding]:
-    """Yield the refutation by an experiment in which the model of the smaller rank has the larger
-    one.
-    """
+) -> bool:
+    """Return True for as many poles in every experiment."""
+    pairs = _degree_pairs(small, large, profile_of)
+    return all(smaller[1] == larger[1] for smaller, larger in pairs)
+
+
+def of_one_experiment(
+    small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
+) -> InclusionFinding | None:
+    """An experiment in which the model of the smaller rank has the larger one."""
     for k, pair in enumerate(zip(small.experiments, large.experiments, strict=True)):
         alone = (MeasuredChain(m.chain, (e,)) for m, e in zip((small, large), pair, strict=True))
         mine, theirs = map(profile_of, alone)
@@ -168,7 +185,22 @@ def _by_one_experiment(
             labels = tuple(name.replace("[1]", f"[{k + 1}]") for name in mine.labels)
             ranks = order(mine.rank, theirs.rank, first)
             grade = grade_of(theirs.rank_proven, min(mine.safety, theirs.safety) - 1)
-            yield InclusionFinding(Inclusion.NEITHER, *grade, LargerProjection(labels, *ranks))
+            return InclusionFinding(Inclusion.NEITHER, *grade, LargerProjection(labels, *ranks))
+    return None
+
+
+def of_profiles(
+    small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf, first: bool
+) -> InclusionFinding | None:
+    """Ranks of projections, or a full image, of all experiments together."""
+    return by_profiles(profile_of(small), profile_of(large), left_is_smaller=first)
+
+
+def _degree_pairs(
+    small: MeasuredChain, large: MeasuredChain, profile_of: ProfileOf
+) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+    """Degrees of both in every experiment."""
+    return list(zip(_pairs(profile_of(small)), _pairs(profile_of(large)), strict=True))
 
 
 def _pairs(profile: Profile) -> list[tuple[int, int]]:

@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import weakest
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome, positive_ways
+from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT
 from disting.conditions.side import Side
+from disting.decide import POSITIVE_MEASURED, SAME_MEASURED, found_at_once, recheck
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
@@ -24,7 +25,7 @@ from disting.experiments.exact import exact_finding, positive_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import inclusions_under, numbering
 from disting.experiments.machine_model import MachineModel, is_renaming
-from disting.experiments.measured_evidence import confirms, confirms_inclusion, recheck
+from disting.experiments.measured_evidence import confirms, confirms_inclusion
 from disting.model.chain import Premise
 from disting.model.question import Domain, Question
 from disting.questions.same.exact import resting_on_ranks
@@ -90,11 +91,8 @@ class ComparedMachine(Side[MeasuredChain]):
 
     def foreseen(self, other: "ComparedMachine") -> Finding | None:
         """Not asked of unequal ranks, degrees or dead times."""
-        mine, theirs = self.transfer_profile, other.transfer_profile
-        alike = mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees
-        if alike and self.measured.chain.dead_time == other.measured.chain.dead_time:
-            return None
-        return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
+        finding: Finding | None = found_at_once(SAME_MEASURED.at_once, self, other)
+        return finding
 
     def grounded(self, other: "ComparedMachine", found: Finding) -> Finding:
         """As sure as the ranks."""
@@ -102,7 +100,10 @@ class ComparedMachine(Side[MeasuredChain]):
 
     def found_again(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
         """What is found with evidence of this kind."""
-        return recheck(evidence, *self.pair(other), self.settings)
+        again: Finding | None = recheck(
+            evidence, SAME_MEASURED.rows, *self.pair(other), self.settings
+        )
+        return again
 
     def confirms(self, other: "ComparedMachine", evidence: Evidence, representation: str) -> bool:
         """Whether evidence of a verdict is true of both."""
@@ -120,7 +121,7 @@ class ComparedMachine(Side[MeasuredChain]):
         """
         if isinstance(why, Renaming) or domain is not Domain.POSITIVE:
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_KNOWN.format(domain))
-        finding = positive_ways(self.positive(other), other.positive(self))
+        finding: Finding = found_at_once(POSITIVE_MEASURED.at_once, self, other)
         if finding.outcome is Outcome.ABANDONED or isinstance(why, FreeChoice):
             return finding
         same = self.exact(other)
@@ -143,3 +144,12 @@ class ComparedMachine(Side[MeasuredChain]):
         complex ones have equivalents.
         """
         return self.answerer(POSITIVELY, (self.measured, other.measured), self.settings)
+
+
+def refuse_unequal(left: ComparedMachine, right: ComparedMachine) -> Finding | None:
+    """Not asked of unequal ranks, degrees or dead times."""
+    mine, theirs = left.transfer_profile, right.transfer_profile
+    alike = mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees
+    if alike and left.measured.chain.dead_time == right.measured.chain.dead_time:
+        return None
+    return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)

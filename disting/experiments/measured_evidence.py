@@ -10,6 +10,7 @@ from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding
+from disting.decide import OF_INCLUSIONS, OF_VERDICTS, Of, check, deciders_of
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refutation, Solutions
@@ -20,7 +21,7 @@ from disting.evidence.positive import BothWays, OnlyOne, Points, PositiveFinding
 from disting.experiments.exact import answer_of
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import confirms_missing, numberings
-from disting.experiments.listing import by_list, listable, listed_at, without_dead_time
+from disting.experiments.listing import listable, listed_at, without_dead_time
 from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.maps import match_maps
 from disting.fibres.ideals import find_again
@@ -59,52 +60,59 @@ def confirms(
 
 def _found_again(evidence: Kind, left: MeasuredChain, right: MeasuredChain) -> bool:
     """What the exact decision, positive equivalents and inclusions rest on."""
-    match evidence:
-        case LargerProjection():
-            return _larger(evidence, left, right)
-        case FullImage():
-            larger = left if evidence.left_is_larger else right
-            return confirms(FreeChoice(evidence.rank, evidence.free), larger, larger)
-        case MissingElements():
-            return confirms_missing(evidence, left, right)
-        case FibreUnder():
-            return _missed(evidence, left, right)
-        case Solutions() | Refutation():
-            # normalised coordinates are those of a chain alone
-            return not evidence.is_normalised and find_again(evidence, *match_maps(left, right))
-        case BothWays():
-            return _both_ways(evidence, left, right)
-    return False  # it speaks of other models
+    return check(evidence, deciders_of(Of.MEASURED, OF_VERDICTS + OF_INCLUSIONS), left, right)
+
+
+def check_missing(evidence: MissingElements, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """The part once more, in all experiments."""
+    return confirms_missing(evidence, left, right)
+
+
+def check_profiles(
+    evidence: LargerProjection | FullImage, left: MeasuredChain, right: MeasuredChain
+) -> bool:
+    """Ranks of a projection, or a full image."""
+    if isinstance(evidence, LargerProjection):
+        return check_larger(evidence, left, right)
+    return check_full_image(evidence, left, right)
+
+
+def check_full_image(evidence: FullImage, left: MeasuredChain, right: MeasuredChain) -> bool:
+    """Free choice of these invariants in the one of larger rank."""
+    larger = left if evidence.left_is_larger else right
+    return confirms(FreeChoice(evidence.rank, evidence.free), larger, larger)
+
+
+def check_ideal(
+    evidence: Solutions | Refutation, left: MeasuredChain, right: MeasuredChain
+) -> bool:
+    """Solutions put into all functions, contradictions found again."""
+    # normalised coordinates are those of a chain alone
+    return not evidence.is_normalised and find_again(evidence, *match_maps(left, right))
 
 
 def confirms_inclusion(
     evidence: InclusionEvidence, left: MeasuredChain, right: MeasuredChain
 ) -> bool:
     """Whether evidence of an inclusion holds: degrees have to refute it."""
-    if isinstance(evidence, Counts):
-        return _one_experiment(evidence, left, right)
-    return confirms(evidence, left, right)
+    return check(evidence, deciders_of(Of.MEASURED, OF_INCLUSIONS), left, right)
 
 
-def recheck(
-    evidence: Evidence, left: MeasuredChain, right: MeasuredChain, settings: Settings
-) -> Finding | None:
-    """What evidence of this kind says of two measured chains of equal ranks and degrees: the list
-    is made again, the labels of ideals are drawn again; None if nothing.
-    """
-    match evidence:
-        case FibreUnder():
-            return by_list(left, right, settings)
-        case Solutions() | Refutation():
-            return by_labels(evidence, *match_maps(left, right), settings.seed)
-    return None
+def recheck_labels(
+    evidence: Solutions | Refutation,
+    left: MeasuredChain,
+    right: MeasuredChain,
+    settings: Settings,
+) -> Finding:
+    """Of ideals the labels are drawn again."""
+    return by_labels(evidence, *match_maps(left, right), settings.seed)
 
 
 def _seen(measured: MeasuredChain) -> ModelSamples:
     return samples_of(MachineModel(measured))
 
 
-def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChain) -> bool:
+def check_larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChain) -> bool:
     """Ranks of the named rows of all experiments, or of all rows of one experiment alone."""
     ranks = Ranks(evidence.rows, evidence.left, evidence.right, all_rows=False)
     labels = set[str]().union(*(_seen(m).labels("tf") for m in (left, right)))
@@ -118,7 +126,7 @@ def _larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChai
     return False
 
 
-def _one_experiment(evidence: Counts, left: MeasuredChain, right: MeasuredChain) -> bool:
+def check_counts(evidence: Counts, left: MeasuredChain, right: MeasuredChain) -> bool:
     """Whether these are the degrees of one experiment, and those of the chain of smaller rank are
     no limit's of the other.
     """
@@ -130,7 +138,7 @@ def _one_experiment(evidence: Counts, left: MeasuredChain, right: MeasuredChain)
     return is_stated and exceed(small, large)
 
 
-def _missed(evidence: FibreUnder, left: MeasuredChain, right: MeasuredChain) -> bool:
+def check_list(evidence: FibreUnder, left: MeasuredChain, right: MeasuredChain) -> bool:
     """The list once more, and what each of it misses."""
     left, right = without_dead_time(left), without_dead_time(right)
     machine, searched = (left, right) if evidence.left_given else (right, left)
@@ -151,7 +159,7 @@ def _is_of(point: tuple[tuple[str, str], ...], machine: MeasuredChain) -> bool:
     return sorted(name for name, _ in point) == sorted(machine.chain.parameters)
 
 
-def _both_ways(evidence: BothWays, left: MeasuredChain, right: MeasuredChain) -> bool:
+def check_both_ways(evidence: BothWays, left: MeasuredChain, right: MeasuredChain) -> bool:
     """What is known of either way, once more; something is."""
     left, right = without_dead_time(left), without_dead_time(right)
     ways = [(evidence.left, left, right), (evidence.right, right, left)]

@@ -8,13 +8,16 @@ equivalent, and in another one, of either model, there is none (see `witnesses`)
 proven.
 """
 
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
 
 from disting.algebra.certainty import Certainty
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
+from disting.decide import VALUES_POSITIVE, VALUES_REAL, first_finding
 from disting.errors import ContradictionError
-from disting.evidence.decision import Theorem
+from disting.evidence.decision import ONE_PORTS, Theorem
 from disting.evidence.general import Explicit, Inequality, NoEquivalent, Witnesses
 from disting.general.formulas import explicit, fit
 from disting.general.matrix_model import AnyModel
@@ -44,74 +47,153 @@ TOO_LARGE = "the search for all equivalents grew too large"
 Ways = tuple[Way | None, Way | None]
 
 
+@dataclass(frozen=True)
+class ValueSearch:
+    """The search for equivalents of two models over a domain, as far as this effort goes; what
+    several methods look at is computed once. `known_ways`: where they are known already.
+    """
+
+    left: AnyModel
+    right: AnyModel
+    domain: Domain
+    seed: str
+    effort: Effort = THOROUGH
+    known_ways: Ways | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of parameters of the larger model."""
+        return max(len(m.parameters) for m in (self.left, self.right))
+
+    @cached_property
+    def ways(self) -> Ways:
+        """What is known of either way; the second one is not asked where the first says "never"."""
+        if self.known_ways is not None:
+            return self.known_ways
+        first = way(self.left, self.right, self.domain, self.effort)
+        settled = first and first.never
+        return first, None if settled else way(self.right, self.left, self.domain, self.effort)
+
+    @cached_property
+    def seen(self) -> tuple[Example | None, Example | None, str]:
+        """A point with and one without an equivalent, and the shares of those with one."""
+        having, lacking, shares = _seen(self.ways, self.domain, self.seed, self.effort.points)
+        if lacking and not having and self.domain is Domain.POSITIVE:
+            having = common_point(self.left, self.right)
+        return having, lacking, shares
+
+
 def admissible_finding(
     left: AnyModel, right: AnyModel, domain: Domain, seed: str, effort: Effort = THOROUGH
 ) -> Finding:
-    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen. Lists of all
-    equivalents of points cost milliseconds, so a few come first.
-    """
-    size = max(len(m.parameters) for m in (left, right))
-    if domain is Domain.POSITIVE:
-        evidence = by_inequalities(left, right, FEW) if size > MANY else None
-        evidence = evidence or by_lists(left, right, seed, FIRST)
-        if evidence is None and size > SMALL:
-            evidence = by_numbers(left, right, seed, FIRST, effort.degree)
-        if evidence:
-            return _shown(evidence)
-    first = way(left, right, domain, effort)
-    second = None if first and first.never else way(right, left, domain, effort)
-    finding = of_ways(left, right, (first, second), domain, seed, effort)
-    if domain is not Domain.POSITIVE or finding.outcome is not Outcome.ABANDONED:
-        return finding
-    # a brief search of many values has asked for them first, and asks no longer
-    was_brief = effort.unknowns is not None and size > effort.unknowns
-    evidence = None if was_brief else by_inequalities(left, right)
-    return _shown(evidence) if evidence else finding
+    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen."""
+    rows = VALUES_POSITIVE.rows if domain is Domain.POSITIVE else VALUES_REAL.rows
+    finding: Finding = first_finding(rows, ValueSearch(left, right, domain, seed, effort))
+    return finding
 
 
-def of_ways(
-    left: AnyModel,
-    right: AnyModel,
-    ways: Ways,
-    domain: Domain,
-    seed: str,
-    effort: Effort = THOROUGH,
-) -> Finding:
-    """The finding from what is known each way; raises ContradictionError where that cannot all
-    be true.
+def by_first_inequalities(search: ValueSearch) -> Finding | None:
+    """Inequalities of models of many parameters, with few starts: before eliminations."""
+    found = by_inequalities(search.left, search.right, FEW) if search.size > MANY else None
+    return _shown(found) if found else None
+
+
+def by_first_lists(search: ValueSearch) -> Finding | None:
+    """Lists of all equivalents of points cost milliseconds, so a few come first."""
+    found = by_lists(search.left, search.right, search.seed, FIRST)
+    return _shown(found) if found else None
+
+
+def by_first_numbers(search: ValueSearch) -> Finding | None:
+    """Searches in rounded numbers at a few points, where formulas are not to be expected."""
+    if search.size <= SMALL:
+        return None
+    found = by_numbers(search.left, search.right, search.seed, FIRST, search.effort.degree)
+    return _shown(found) if found else None
+
+
+def by_no_case(search: ValueSearch) -> Finding | None:
+    """No generic parameters of one model have an equivalent: all cases are closed. Raises
+    ContradictionError where some have one.
     """
-    never = next((i for i, side in enumerate(ways) if side and side.never), None)
-    if never is not None:
-        _refuse_equivalents(ways, domain, seed)
-        return _never(ways, never, domain)
-    if all(side and side.covering for side in ways):
-        return _always(explicit(ways, left, right, domain, effort), left, right)
-    if domain is Domain.POSITIVE and are_one_ports(left, right):
-        return Finding(
-            ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem("Foster and Cauer")
-        )
-    having, lacking, shares = _seen(ways, domain, seed, effort.points)
-    if lacking and not having and domain is Domain.POSITIVE:
-        having = common_point(left, right)
-    if lacking and (side := ways[0 if lacking[0] else 1]) and side.path():
+    never = next((i for i, side in enumerate(search.ways) if side and side.never), None)
+    if never is None:
+        return None
+    _refuse_equivalents(search.ways, search.domain, search.seed)
+    return _never(search.ways, never, search.domain)
+
+
+def by_covering_maps(search: ValueSearch) -> Finding | None:
+    """Sections that cover all generic parameters, both ways. Raises ContradictionError where their
+    formulas give other functions.
+    """
+    if not all(side and side.covering for side in search.ways):
+        return None
+    return _always(_formulas(search), search.left, search.right)
+
+
+def by_one_ports(search: ValueSearch) -> Finding | None:
+    """One-ports that give any impedance of their kind (see `one_ports`)."""
+    if not are_one_ports(search.left, search.right):
+        return None
+    evidence = Theorem(ONE_PORTS)
+    return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=evidence)
+
+
+def by_witnesses(search: ValueSearch) -> Finding | None:
+    """A point with and one without an equivalent, and all around them. Raises ContradictionError
+    where a root gives equivalents of all.
+    """
+    having, lacking, _ = search.seen
+    if lacking and (side := search.ways[0 if lacking[0] else 1]) and side.path():
         raise ContradictionError(
             f"a root gives equivalents of all {side.given.name}, and {dict(lacking[1])} has none"
         )
-    if having and lacking:
-        return _shown(witnesses_of(left, right, having, lacking, domain))
-    if not lacking and (formulas := explicit(ways, left, right, domain, effort)):
-        return _always(formulas, left, right)
-    if domain is Domain.POSITIVE:
-        evidence = by_lists(left, right, seed, effort.listed) or by_numbers(
-            left, right, seed, effort.listed, effort.degree, having
-        )
-        if evidence:
-            return _shown(evidence)
+    if not (having and lacking):
+        return None
+    return _shown(witnesses_of(search.left, search.right, having, lacking, search.domain))
+
+
+def by_maps(search: ValueSearch) -> Finding | None:
+    """Formulas for all parameters, where no point without an equivalent was seen."""
+    formulas = None if search.seen[1] else _formulas(search)
+    return _always(formulas, search.left, search.right) if formulas else None
+
+
+def by_more_lists(search: ValueSearch) -> Finding | None:
+    """Lists of all equivalents of as many points as the effort allows."""
+    found = by_lists(search.left, search.right, search.seed, search.effort.listed)
+    return _shown(found) if found else None
+
+
+def by_more_numbers(search: ValueSearch) -> Finding | None:
+    """Searches in rounded numbers at as many points."""
+    effort, having = search.effort, search.seen[0]
+    found = by_numbers(search.left, search.right, search.seed, effort.listed, effort.degree, having)
+    return _shown(found) if found else None
+
+
+def by_all_inequalities(search: ValueSearch) -> Finding | None:
+    """Inequalities with all starts. A brief search of many values has asked for them first, and
+    asks no longer.
+    """
+    most = search.effort.unknowns
+    was_brief = most is not None and search.size > most
+    found = None if was_brief else by_inequalities(search.left, search.right)
+    return _shown(found) if found else None
+
+
+def left_open(search: ValueSearch) -> Finding:
+    """What was seen, where nothing decides."""
     note = (
-        f"an equivalent with {domain} parameters was found {shares}, which proves nothing of the"
-        " others"
+        f"an equivalent with {search.domain} parameters was found {search.seen[2]}, which proves"
+        " nothing of the others"
     )
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=note)
+
+
+def _formulas(search: ValueSearch) -> Explicit | None:
+    return explicit(search.ways, search.left, search.right, search.domain, search.effort)
 
 
 def are_one_ports(left: AnyModel, right: AnyModel) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import TypeVar, overload
 
 from disting.conditions.finding import Finding
+from disting.decide import SAME_NETWORKS, first_finding
 from disting.fibres.ideals import (
     CoefficientMap,
     Fraction as Ratio,
@@ -18,6 +19,7 @@ from disting.fibres.ideals import (
     match_maps,
     stacked_maps,
 )
+from disting.general.expansion import TooLargeError
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model, Terms
 from disting.general.powers import Cell, Powers, in_v, out_of_v, separating_weights
@@ -32,6 +34,14 @@ from disting.questions.same.exact import SAFETY, as_finding
 LIMITS = Limits(safety=SAFETY, long=True)
 M = TypeVar("M", Model, AnyModel)
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
+
+
+def is_writable(model: AnyModel) -> bool:
+    """Return True if its terms, in which exact decisions are made, are not too many."""
+    try:
+        return all(e.numerator_terms is not None for e in model.entries)
+    except TooLargeError:
+        return False
 
 
 def measurand(models: Iterable[Chain | AnyModel]) -> str:
@@ -177,6 +187,12 @@ def with_names(note: str, left: str, right: str) -> str:
 
 def same(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     """The exact decision, for equal ranks and degrees."""
+    finding: Finding = first_finding(SAME_NETWORKS.rows, left, right, settings)
+    return finding
+
+
+def by_ideals(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
+    """The ideal of one fibre of the stacked map."""
     maps = maps_of(left, right)
     return as_finding(decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=LIMITS))
 

@@ -18,6 +18,7 @@ from itertools import islice
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
+from disting.decide import POSITIVE_NETWORKS, first_finding
 from disting.errors import InputError
 from disting.evidence.decision import Theorem
 from disting.evidence.general import (
@@ -95,15 +96,15 @@ def by_forms(
 
 
 def by_inverse(
-    left: AnyModel, right: AnyModel, seed: str, effort: Effort = THOROUGH
+    left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
 ) -> Finding | None:
     """What the same networks tell with 1/s for s, over positive parameters; None if nothing."""
     models = inverse_of(left, right)
     if models is None:
         return None
-    finding = by_forms(*models, seed, effort)
+    finding = by_forms(*models, settings.seed, effort)
     if finding is None:
-        finding = _answered(*models, seed, effort)
+        finding = _answered(*models, settings.seed, effort)
     if isinstance(
         finding.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replacement
     ):
@@ -166,7 +167,7 @@ def _with_network(model: AnyModel, network: Network) -> AnyModel:
 
 
 def confirms_forms(
-    evidence: OfSubstitutes, left: AnyModel, right: AnyModel, representation: str
+    evidence: OfSubstitutes, left: AnyModel, right: AnyModel, representation: str = "tf"
 ) -> bool:
     """Whether these networks stand for both, and what is said of them is true."""
     inner = evidence.inner
@@ -249,17 +250,20 @@ def over_positive(
     left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
 ) -> Finding:
     """The finding over positive values, as far as this effort goes."""
+    finding: Finding = first_finding(POSITIVE_NETWORKS.rows, left, right, settings, effort)
+    return finding
+
+
+def by_values(left: AnyModel, right: AnyModel, settings: Settings, effort: Effort) -> Finding:
+    """Maps, points and inequalities of the simplest networks that give the same, or of the two as
+    they are where nothing is replaced; a map without exception is stronger than a theorem.
+    """
     finding = by_forms(left, right, settings.seed, effort)
     if finding is None:
         finding = admissible_finding(left, right, Domain.POSITIVE, settings.seed, effort)
-    if finding.outcome is not Outcome.ABANDONED:
-        rests_on_others = isinstance(finding.evidence, OfSubstitutes | Theorem)
-        is_same = finding.outcome is Outcome.HOLDS and rests_on_others
-        return stronger(finding, left, right) if is_same else finding
-    turned = by_inverse(left, right, settings.seed, effort)
-    if turned is None:
-        turned = by_parts(left, right, settings, effort)
-    return finding if turned is None else turned
+    rests_on_others = isinstance(finding.evidence, OfSubstitutes | Theorem)
+    is_same = finding.outcome is Outcome.HOLDS and rests_on_others
+    return stronger(finding, left, right) if is_same else finding
 
 
 def _in_brief(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:

@@ -9,13 +9,12 @@ from math import isclose
 
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.decide import Of, check, deciders_of
 from disting.evidence.decision import Theorem
 from disting.evidence.general import (
     UNCOUNTED,
     Constants,
-    Explicit,
     Inequality,
-    NoEquivalent,
     Witnesses,
 )
 from disting.evidence.ideals import Refutation, Solutions
@@ -24,15 +23,16 @@ from disting.evidence.kinds import Evidence
 from disting.fibres.ideals import Limits, find_again
 from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
-from disting.general.any_model import is_renamed, maps_of
+from disting.general.any_model import is_renamed, is_writable, maps_of
 from disting.general.combination import excludes
 from disting.general.equivalent import spell
-from disting.general.formulas import is_explicit, is_without
 from disting.general.inequalities import excludes_around, is_contradiction
+from disting.general.interlacing import sets_of
 from disting.general.matrix_model import AnyModel
 from disting.general.model import Model
 from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
+from disting.general.replacement import same_in_units
 from disting.general.target import Values
 from disting.general.which_models import ways_by_all
 from disting.general.witnesses import solutions_at
@@ -68,37 +68,41 @@ def confirms_models(
 
 def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
     """What the exact decision, or the one on real and positive parameters, rests on."""
-    match evidence:
-        case Constants():
-            return _differ(evidence, left, right)
-        case Solutions() | Refutation():
-            # normalised coordinates are those of a chain
-            return not evidence.is_normalised and find_again(evidence, *maps_of(left, right), AGAIN)
-        case Theorem():
-            return evidence.name == "Foster and Cauer" and are_one_ports(left, right)
-        case Explicit():
-            return is_explicit(evidence, left, right)
-        case NoEquivalent():
-            return is_without(evidence, left, right)
-        case Inequality():
-            return is_inequality(evidence, left, right)
-        case Witnesses():
-            return confirms(evidence, left, right)
-    return False  # it speaks of other models
+    return check(evidence, deciders_of(Of.NETWORKS), left, right)
 
 
-def recheck(
-    evidence: Evidence, left: AnyModel, right: AnyModel, settings: Settings
-) -> Finding | None:
-    """What the ideals of such evidence say of two models of equal ranks and degrees: their labels
-    are drawn again; None if it is of another kind.
-    """
-    if not isinstance(evidence, Solutions | Refutation):
-        return None
+def check_ideal(evidence: Solutions | Refutation, left: AnyModel, right: AnyModel) -> bool:
+    """Solutions put into all functions, contradictions found again."""
+    # normalised coordinates are those of a chain
+    return not evidence.is_normalised and find_again(evidence, *maps_of(left, right), AGAIN)
+
+
+def check_gears(evidence: Theorem, left: AnyModel, right: AnyModel) -> bool:
+    """One machine in other units, those behind gears."""
+    return same_in_units(left, right)
+
+
+def check_sets(evidence: Theorem, left: AnyModel, right: AnyModel) -> bool:
+    """Networks that give the same set of functions by a theorem of this name."""
+    if not (is_writable(left) and is_writable(right)):
+        return False
+    given_set = sets_of(left).get(evidence.name)
+    return given_set is not None and given_set == sets_of(right).get(evidence.name)
+
+
+def check_one_ports(evidence: Theorem, left: AnyModel, right: AnyModel) -> bool:
+    """One-ports of one kind and order."""
+    return are_one_ports(left, right)
+
+
+def recheck_labels(
+    evidence: Solutions | Refutation, left: AnyModel, right: AnyModel, settings: Settings
+) -> Finding:
+    """Of ideals the labels are drawn again."""
     return by_labels(evidence, *maps_of(left, right), settings.seed)
 
 
-def _differ(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
+def check_constants(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
     """Whether these are constants of both models that differ, by their exact values."""
     sides = [behaviour_of(model).constants(None) for model in (left, right)]
     stated = (evidence.left, evidence.right)
@@ -177,6 +181,13 @@ def _has_none(model: AnyModel, other: AnyModel, values: Values, domain: Domain) 
         if fibre_lists.has_no_equivalent(model, values, other):
             return True
     return any(way.lacking(values) for way in ways_by_all(model, other, domain))
+
+
+def check_inequalities(evidence: Inequality | Witnesses, left: AnyModel, right: AnyModel) -> bool:
+    """The signs of a form, or both points."""
+    if isinstance(evidence, Inequality):
+        return is_inequality(evidence, left, right)
+    return confirms(evidence, left, right)
 
 
 def is_inequality(evidence: Inequality, left: AnyModel, right: AnyModel) -> bool:

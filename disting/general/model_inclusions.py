@@ -11,6 +11,7 @@ from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
+from disting.decide import CLOSURE_NETWORKS, OF_INCLUSIONS, Of, check, deciders_of, first_finding
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import Minor
 from disting.general.matrix_model import AnyModel
@@ -34,9 +35,11 @@ def inclusions_of(
     left_is_smaller: bool,
 ) -> Inclusions:
     """Both statements on two models of unequal rank."""
-    closure = _by_minors(*order(left, right, left_is_smaller), left_is_smaller)
-    if closure is None and _by_degrees(left, right):
-        closure = _by_profiles(profiles, left_is_smaller)
+    pair = order(left, right, left_is_smaller)
+    summaries = order(*profiles, left_is_smaller)
+    closure: InclusionFinding | None = first_finding(
+        CLOSURE_NETWORKS.rows, *pair, summaries, left_is_smaller
+    )
     if closure is None:
         closure = InclusionFinding(Inclusion.UNKNOWN, reason=NOT_SETTLED)
     if closure.inclusion is Inclusion.NEITHER:
@@ -50,13 +53,24 @@ def confirms_inclusion(
     """Whether evidence of an inclusion holds: places of missing elements are looked at again, all
     else is found again at fresh points.
     """
-    if isinstance(evidence, Minor):
-        pair = (left, right) if evidence.left_is_part else (right, left)
-        return evidence.left_is_part == left_is_smaller and _is_what_remains(evidence, *pair)
-    if not _by_degrees(left, right):
-        return False
-    fresh = [profile(behaviour_of(m), Representation.TF, 0, FRESH) for m in (left, right)]
-    finding = _by_profiles((fresh[0], fresh[1]), left_is_smaller)
+    rows = deciders_of(Of.NETWORKS, OF_INCLUSIONS)
+    return check(evidence, rows, left, right, left_is_smaller)
+
+
+def check_minor(evidence: Minor, left: AnyModel, right: AnyModel, left_is_smaller: bool) -> bool:
+    """The part once more."""
+    pair = (left, right) if evidence.left_is_part else (right, left)
+    return evidence.left_is_part == left_is_smaller and _is_what_remains(evidence, *pair)
+
+
+def check_profiles(
+    evidence: InclusionEvidence, left: AnyModel, right: AnyModel, left_is_smaller: bool
+) -> bool:
+    """What fresh profiles say."""
+    small, large = order(left, right, left_is_smaller)
+    fresh = [profile(behaviour_of(m), Representation.TF, 0, FRESH) for m in (small, large)]
+    given = small, large, (fresh[0], fresh[1]), left_is_smaller
+    finding = of_profiles(*given) if have_degrees(*given) else None
     return finding is not None and finding.evidence == evidence
 
 
@@ -77,7 +91,9 @@ def n_elements(network: Network | None) -> int | None:
     return None if network is None else len(network.grounded.elements)
 
 
-def _by_minors(small: AnyModel, large: AnyModel, left_is_part: bool) -> InclusionFinding | None:
+def by_minors(
+    small: AnyModel, large: AnyModel, profiles: tuple[Profile, Profile], left_is_part: bool
+) -> InclusionFinding | None:
     """The part is a limit of the whole, its elements at these places."""
     if small.network is None or large.network is None:
         return None
@@ -105,13 +121,15 @@ def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
     return is_known and form == rest_of(whole, evidence.missing, evidence.rigid)
 
 
-def _by_degrees(left: AnyModel, right: AnyModel) -> bool:
+def have_degrees(
+    small: AnyModel, large: AnyModel, profiles: tuple[Profile, Profile], left_is_smaller: bool
+) -> bool:
     """Whether degrees bound those of limits: not those in v, where exponents may change."""
-    return not any(m.powers.weights for m in (left, right))
+    return not any(m.powers.weights for m in (small, large))
 
 
-def _by_profiles(
-    profiles: tuple[Profile, Profile], left_is_smaller: bool
+def of_profiles(
+    small: AnyModel, large: AnyModel, profiles: tuple[Profile, Profile], left_is_smaller: bool
 ) -> InclusionFinding | None:
-    small, large = order(*profiles, left_is_smaller)
-    return by_profiles(small, large, left_is_smaller=left_is_smaller)
+    """What degrees, ranks of projections and a full image settle."""
+    return by_profiles(*profiles, left_is_smaller=left_is_smaller)

@@ -14,12 +14,19 @@ from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusions
-from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
 from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
+from disting.decide import (
+    POSITIVE_NETWORKS,
+    REAL_NETWORKS,
+    SAME_NETWORKS,
+    found_at_once,
+    recheck,
+)
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
-from disting.evidence.general import OfSubstitutes, OverDomain
+from disting.evidence.general import OverDomain
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
@@ -30,15 +37,15 @@ from disting.general.any_model import (
     as_network,
     cells_of,
     is_renamed,
+    is_writable,
     renamed_chain,
     same,
     with_names,
     without_names,
 )
 from disting.general.behaviour import GeneralModel
-from disting.general.expansion import TooLargeError
 from disting.general.exponents import count_determined
-from disting.general.forms import ADMISSIBLY, confirms_forms
+from disting.general.forms import ADMISSIBLY
 from disting.general.interlacing import sets_of
 from disting.general.matrix_model import AnyModel
 from disting.general.model_evidence import constants_finding
@@ -61,7 +68,6 @@ from disting.questions.same.exact import resting_on_ranks
 NO_SHARES = "of general models it is not asked which positive ones have positive equivalents"
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
 TOO_MANY_TERMS = "the transfer functions have too many terms"
-ON_NETWORKS = (GEARS, REPLACEMENT, INTERLACING)  # theorems
 EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
 ModelPair = tuple["ComparedModel", "ComparedModel"]
 
@@ -173,10 +179,7 @@ class ComparedModel(Side[AnyModel]):
     @cached_property
     def is_writable(self) -> bool:
         """Whether its terms, in which exact decisions are made, are not too many."""
-        try:
-            return all(e.numerator_terms is not None for e in self.subject.entries)
-        except TooLargeError:
-            return False
+        return is_writable(self.subject)
 
     def pair(self, other: "ComparedModel") -> tuple[AnyModel, AnyModel]:
         """Both, whatever they are called."""
@@ -184,20 +187,8 @@ class ComparedModel(Side[AnyModel]):
 
     def foreseen(self, other: "ComparedModel") -> Finding | None:
         """Not asked of unequal ranks or degrees, nor where a theorem tells it."""
-        mine, theirs = self.transfer_profile, other.transfer_profile
-        if mine.rank != theirs.rank or mine.degrees != theirs.degrees:
-            return Finding(
-                EXACT,
-                Outcome.INAPPLICABLE,
-                note="the ranks or degrees differ (conditions 2 and 4)",
-            )
-        if mine.rank == 0:
-            return constants_finding(self.subject, other.subject)
-        if _applies(GEARS, self, other):
-            return Finding(EXACT, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(GEARS))
-        if not (self.is_writable and other.is_writable):
-            return Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
-        return None
+        finding: Finding | None = found_at_once(SAME_NETWORKS.at_once, self, other)
+        return finding
 
     def grounded(self, other: "ComparedModel", found: Finding) -> Finding:
         """In every order of the exponents."""
@@ -206,7 +197,10 @@ class ComparedModel(Side[AnyModel]):
 
     def found_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
         """What is found with evidence of this kind."""
-        return model_evidence.recheck(evidence, *self.pair(other), self.settings)
+        again: Finding | None = recheck(
+            evidence, SAME_NETWORKS.rows, *self.pair(other), self.settings
+        )
+        return again
 
     def _in_every_order(self, other: "ComparedModel", finding: Finding) -> Finding:
         """What is found with the exponents in one order, of all of them: a difference is none where
@@ -227,10 +221,6 @@ class ComparedModel(Side[AnyModel]):
         one_order = Carrier.CONDITION not in evidence.claim.carriers and self.has_other_readings
         if one_order and not any(evidence.shows(d) is Relation.INDISTINGUISHABLE for d in Domain):
             return False
-        if isinstance(evidence, Theorem) and evidence.name in ON_NETWORKS:
-            return _applies(evidence.name, self, other)
-        if isinstance(evidence, OfSubstitutes):
-            return confirms_forms(evidence, self.subject, other.subject, representation)
         pair = self.subject, other.subject
         if isinstance(evidence, OverDomain):
             pair = _unnamed(self, other)
@@ -244,15 +234,15 @@ class ComparedModel(Side[AnyModel]):
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
-        name = _theorem(self, other, domain)
-        if name and not _is_asked(self, other, domain):
-            return _by_theorem(name)
+        told = _theorem(self, other, domain)
+        if told is not None and not _is_asked(self, other, domain):
+            return told
         if not (self.is_writable and other.is_writable):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
         question, models = _question(self, other, domain)
         finding = self._in_every_order(other, self.answerer(question, models, self.settings))
-        if name and finding.outcome is not Outcome.HOLDS:
-            return _by_theorem(name)
+        if told is not None and finding.outcome is not Outcome.HOLDS:
+            return told
         return replace(finding, note=with_names(finding.note, self.name, other.name))
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
@@ -288,12 +278,9 @@ def _question(
     left: ComparedModel, right: ComparedModel, domain: Domain
 ) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
     """Of networks that a theorem shows to be the same only a map without exception tells more."""
-    question = PLAIN_MAPS if _theorem(left, right, domain) else ADMISSIBLY[domain]
+    told = _theorem(left, right, domain)
+    question = ADMISSIBLY[domain] if told is None else PLAIN_MAPS
     return question, _unnamed(left, right)
-
-
-def _by_theorem(name: str) -> Finding:
-    return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(name))
 
 
 def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
@@ -301,21 +288,67 @@ def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyMo
     return left.asked_about[0], right.asked_about[1]
 
 
-def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> str:
-    """The theorem by which networks give the same functions over a domain; "" of none."""
-    shown = (n for n in ON_NETWORKS if Theorem(n).shows(domain) is Relation.INDISTINGUISHABLE)
-    return next((name for name in shown if _applies(name, left, right)), "")
+def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> Finding | None:
+    """The theorem by which networks give the same functions over a domain."""
+    table = POSITIVE_NETWORKS if domain is Domain.POSITIVE else REAL_NETWORKS
+    finding: Finding | None = found_at_once(table.at_once, left, right)
+    return finding
 
 
 def _is_asked(left: ComparedModel, right: ComparedModel, domain: Domain) -> bool:
     renamed = left.colouring.fingerprint == right.colouring.fingerprint
     written = left.is_writable and right.is_writable
-    name = _theorem(left, right, domain)
-    return written and not renamed and not (name and Theorem(name).without_exception(domain))
+    told = _theorem(left, right, domain)
+    evidence = None if told is None else told.evidence
+    settled = evidence is not None and evidence.without_exception(domain)
+    return written and not renamed and not settled
 
 
-def _applies(name: str, left: ComparedModel, right: ComparedModel) -> bool:
-    if name == GEARS:
-        return same_in_units(left.subject, right.subject)
+def refuse_unequal(left: ComparedModel, right: ComparedModel) -> Finding | None:
+    """Not asked of unequal ranks or degrees."""
+    mine, theirs = left.transfer_profile, right.transfer_profile
+    if mine.rank == theirs.rank and mine.degrees == theirs.degrees:
+        return None
+    note = "the ranks or degrees differ (conditions 2 and 4)"
+    return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
+
+
+def by_constants(left: ComparedModel, right: ComparedModel) -> Finding | None:
+    """Transfer functions without parameters, by their values."""
+    return constants_finding(left.subject, right.subject) if left.rank == 0 else None
+
+
+def refuse_large(left: ComparedModel, right: ComparedModel) -> Finding | None:
+    """Not asked of functions that are too large to write down."""
+    written = left.is_writable and right.is_writable
+    return None if written else Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
+
+
+def same_by_gears(left: ComparedModel, right: ComparedModel) -> Finding | None:
+    """Machines that differ by gears alone, over complex parameters."""
+    return _of_theorem(EXACT, GEARS, same_in_units(left.subject, right.subject))
+
+
+def by_gears(left: ComparedModel, right: ComparedModel) -> Finding | None:
+    """Machines that differ by gears alone: by rational maps of positive factors."""
+    return _of_theorem(ADMISSIBLE, GEARS, same_in_units(left.subject, right.subject))
+
+
+def by_replacement(left: ComparedModel, right: ComparedModel) -> Finding | None:
+    """Networks with one simplest network."""
+    return _of_theorem(ADMISSIBLE, REPLACEMENT, _gives_same(REPLACEMENT, left, right))
+
+
+def by_interlacing(left: ComparedModel, right: ComparedModel) -> Finding | None:
+    """Undamped trees with one spring to the ground."""
+    return _of_theorem(ADMISSIBLE, INTERLACING, _gives_same(INTERLACING, left, right))
+
+
+def _of_theorem(rule: Rule, name: str, applies: bool) -> Finding | None:
+    evidence = Theorem(name)
+    return Finding(rule, Outcome.HOLDS, Certainty.THEOREM, evidence=evidence) if applies else None
+
+
+def _gives_same(name: str, left: ComparedModel, right: ComparedModel) -> bool:
     given_set = left.gives.get(name)
     return given_set is not None and given_set == right.gives.get(name)

@@ -9,10 +9,11 @@ from functools import cached_property
 from disting.algebra.certainty import full_text
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.transfer import is_renaming
-from disting.conditions.finding import Finding, Outcome, positive_ways
+from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusions
 from disting.conditions.rule import EXACT
 from disting.conditions.side import Ask, Side
+from disting.decide import POSITIVE_CHAINS, SAME_CHAINS, found_at_once, recheck
 from disting.evidence.conditions import Renaming
 from disting.evidence.kind import PointText
 from disting.evidence.kinds import Evidence, InclusionEvidence
@@ -39,7 +40,7 @@ from disting.questions.inclusion.decide import (
 )
 from disting.questions.positive import proves
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_finding, recheck, resting_on_ranks
+from disting.questions.same.exact import exact_finding, resting_on_ranks
 from disting.questions.same.real_and_positive import (
     LACKING,
     POSITIVELY,
@@ -133,9 +134,8 @@ class ComparedChain(Side[Chain]):
 
     def foreseen(self, other: "ComparedChain") -> Finding | None:
         """Not asked of unequal ranks."""
-        if self.rank == other.rank:
-            return None
-        return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
+        finding: Finding | None = found_at_once(SAME_CHAINS.at_once, self, other)
+        return finding
 
     def grounded(self, other: "ComparedChain", found: Finding) -> Finding:
         """In the order of both."""
@@ -145,7 +145,10 @@ class ComparedChain(Side[Chain]):
     def found_again(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
         """What is found with evidence of this kind."""
         evidence = evidence.turned if self._is_turned(other) else evidence
-        return recheck(evidence, *self.pair(other), self.settings)
+        again: Finding | None = recheck(
+            evidence, SAME_CHAINS.rows, *self.pair(other), self.settings
+        )
+        return again
 
     def _is_turned(self, other: "ComparedChain") -> bool:
         """Whether `pair` has the other one first."""
@@ -168,7 +171,8 @@ class ComparedChain(Side[Chain]):
     ) -> Finding:
         """Whether two models that are the same over complex parameters are so over this domain."""
         if domain is Domain.POSITIVE:
-            return positive_ways(self.positive(other), other.positive(self))
+            finding: Finding = found_at_once(POSITIVE_CHAINS.at_once, self, other)
+            return finding
         asked = Answerers(self._positive, self._lacking, self._identifiability)
         return real_finding(self.canonical.chain, other.canonical.chain, asked)
 
@@ -250,3 +254,10 @@ class ComparedChain(Side[Chain]):
 
 def _canonical(left: ComparedChain, right: ComparedChain) -> tuple[Chain, Chain]:
     return left.canonical.chain, right.canonical.chain
+
+
+def refuse_unequal(left: ComparedChain, right: ComparedChain) -> Finding | None:
+    """Not asked of unequal ranks."""
+    if left.rank == right.rank:
+        return None
+    return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")

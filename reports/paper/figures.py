@@ -16,11 +16,11 @@ from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
-from disting.export import predict
 from markupsafe import Markup
 
 from disting import Catalog, Decisions, Family, Relation, View
 from disting.catalogs.dampers import DamperTable, spell
+from disting.export import predict
 from disting.fit.judge.modes import physical
 from disting.measurement.arrays import Complex
 from disting.report.fit import bode, models_by_threshold, parameters_by_threshold

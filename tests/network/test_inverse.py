@@ -12,6 +12,7 @@ from disting.conditions.rule import ADMISSIBLE
 from disting.evidence.general import AtInverse, Replacement
 from disting.general.any_model import of_network
 from disting.general.forms import by_inverse, confirms_forms
+from disting.model.question import Settings
 from disting.network.families import family_of
 from disting.network.inverse import at_inverse
 from disting.network.notation import network_of
@@ -57,7 +58,7 @@ def test_without_a_counterpart_there_is_none(text):
 def asked():
     """Both models, and what the pair with 1/s for s says of them."""
     left, right = (of_network(network_of(text)) for text in (LEFT, RIGHT))
-    return left, right, by_inverse(left, right, "disting")
+    return left, right, by_inverse(left, right, Settings())
 
 
 @pytest.mark.full

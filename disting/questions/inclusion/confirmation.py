@@ -5,6 +5,7 @@ from math import comb
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Representation, samples
+from disting.decide import OF_INCLUSIONS, Of, check, deciders_of
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
 from disting.evidence.ideals import ByRows, Refutation, Solutions
@@ -17,7 +18,6 @@ from disting.evidence.limits import (
     Limit,
     LimitFibre,
     Meeting,
-    Minor,
     MissingElements,
     Outside,
     PoleSharing,
@@ -46,6 +46,7 @@ from disting.questions.inclusion.profiles import confirms_missing, exceed, order
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.exact import rational_part
 
+OfFibre = Outside | RowsInside | ByRows | FibreAt | Solutions | Refutation
 PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 
 
@@ -55,42 +56,88 @@ def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> 
 
     A fibre is computed again. The ranks of the two models are taken from their profiles.
     """
-    a, b, fresh = left.canonical.chain, right.canonical.chain, Witness("inclusion")
-    of_one_size = a.n_masses == b.n_masses
-    left_is_smaller = (a.n_masses, left.rank) < (b.n_masses, right.rank)
-    match evidence:
-        case Counts() if of_one_size:
-            small, large = order(evidence.left, evidence.right, left_is_smaller)
-            return exceed(small, large) and fresh.confirms(evidence, "tf", a, b)
-        case Limit() | Meeting() | TooLarge() | PoleSharing() | LimitFibre() | Counts():
-            return not of_one_size and _across_sizes(evidence, left, right)
-        case MissingElements():
-            return evidence.left_is_part == left_is_smaller and confirms_missing(evidence, a, b)
-        case Minor():
-            return False  # it speaks of networks
-        case DeadTime():
-            return (a.dead_time, b.dead_time) == (evidence.left_given, not evidence.left_given)
-        case LargerProjection():
-            first, second = order(evidence.left, evidence.right, left_is_smaller)
-            return first > second and _ranks(evidence.rows, a, b) == (evidence.left, evidence.right)
-        case FullImage():
-            larger, free = (a if evidence.left_is_larger else b), evidence.free
-            same = evidence.left_is_larger != left_is_smaller and _same_elsewhere(free, a, b)
-            return same and fresh.confirms(FreeChoice(evidence.rank, free), "tf", larger, larger)
-        case RelativeDegrees():
-            larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
-            degrees = order(evidence.left, evidence.right, not evidence.left_is_larger)
-            is_turned = evidence.left_is_larger != left_is_smaller
-            return is_turned and _fall_apart(smaller, larger, *degrees)
-        case Outside() | RowsInside() | ByRows() | FibreAt() | Solutions() | Refutation():
-            return evidence.left_given == left_is_smaller and _found_again(evidence, a, b)
+    return check(evidence, deciders_of(Of.CHAINS, OF_INCLUSIONS), left, right)
 
 
-def _found_again(
-    evidence: Outside | RowsInside | ByRows | FibreAt | Solutions | Refutation, a: Chain, b: Chain
+def check_counts(evidence: Counts, left: ChainSide, right: ChainSide) -> bool:
+    """Degrees that exceed those of limits, and are those of both."""
+    if left.chain.n_masses != right.chain.n_masses:
+        return check_across_sizes(evidence, left, right)
+    small, large = order(evidence.left, evidence.right, _left_is_smaller(left, right))
+    return exceed(small, large) and _fresh().confirms(evidence, "tf", *_forms(left, right))
+
+
+def check_profiles(
+    evidence: Counts | LargerProjection | FullImage, left: ChainSide, right: ChainSide
 ) -> bool:
+    """Degrees, ranks of a projection, or a full image."""
+    match evidence:
+        case Counts():
+            return check_counts(evidence, left, right)
+        case LargerProjection():
+            return check_projection(evidence, left, right)
+        case FullImage():
+            return check_full_image(evidence, left, right)
+
+
+def check_missing(evidence: MissingElements, left: ChainSide, right: ChainSide) -> bool:
+    """The part is the one of smaller rank, by this numbering."""
+    is_smaller = evidence.left_is_part == _left_is_smaller(left, right)
+    return is_smaller and confirms_missing(evidence, *_forms(left, right))
+
+
+def check_dead_time(evidence: DeadTime, left: ChainSide, right: ChainSide) -> bool:
+    """Which of them has one."""
+    dead_times = (left.chain.dead_time, right.chain.dead_time)
+    return dead_times == (evidence.left_given, not evidence.left_given)
+
+
+def check_projection(evidence: LargerProjection, left: ChainSide, right: ChainSide) -> bool:
+    """Ranks of these invariants at fresh points, the larger one of the smaller model."""
+    first, second = order(evidence.left, evidence.right, _left_is_smaller(left, right))
+    ranks = (evidence.left, evidence.right)
+    return first > second and _ranks(evidence.rows, *_forms(left, right)) == ranks
+
+
+def check_full_image(evidence: FullImage, left: ChainSide, right: ChainSide) -> bool:
+    """Free choice of these invariants in the larger model, all others the same in both."""
+    a, b = _forms(left, right)
+    larger, free = (a if evidence.left_is_larger else b), evidence.free
+    is_turned = evidence.left_is_larger != _left_is_smaller(left, right)
+    same = is_turned and _same_elsewhere(free, a, b)
+    return same and _fresh().confirms(FreeChoice(evidence.rank, free), "tf", larger, larger)
+
+
+def check_relative_degrees(evidence: RelativeDegrees, left: ChainSide, right: ChainSide) -> bool:
+    """Relative degrees, written out."""
+    a, b = _forms(left, right)
+    larger, smaller = (a, b) if evidence.left_is_larger else (b, a)
+    degrees = order(evidence.left, evidence.right, not evidence.left_is_larger)
+    is_turned = evidence.left_is_larger != _left_is_smaller(left, right)
+    return is_turned and _fall_apart(smaller, larger, *degrees)
+
+
+def check_fibre(evidence: OfFibre, left: ChainSide, right: ChainSide) -> bool:
+    """The fibre of the model of smaller rank, or its rows, once more."""
+    is_smaller = evidence.left_given == _left_is_smaller(left, right)
+    return is_smaller and _found_again(evidence, *_forms(left, right))
+
+
+def _forms(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
+    return left.canonical.chain, right.canonical.chain
+
+
+def _left_is_smaller(left: ChainSide, right: ChainSide) -> bool:
+    return (left.chain.n_masses, left.rank) < (right.chain.n_masses, right.rank)
+
+
+def _fresh() -> Witness:
+    return Witness("inclusion")
+
+
+def _found_again(evidence: OfFibre, a: Chain, b: Chain) -> bool:
     """What the fibre of the given model, or its rows, say: computed again."""
-    fresh = Witness("inclusion")
+    fresh = _fresh()
     match evidence:
         case Outside() | RowsInside():
             return confirms_rows(evidence, *((a, b) if evidence.left_given else (b, a)))
@@ -106,10 +153,12 @@ def _found_again(
             )
 
 
-def _across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainSide) -> bool:
-    """Whether the evidence is true of the two chains; ranks are taken from their profiles,
-    counts made at fresh points.
+def check_across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainSide) -> bool:
+    """Whether the evidence is true of two chains of different sizes; ranks are taken from their
+    profiles, counts made at fresh points.
     """
+    if left.chain.n_masses == right.chain.n_masses:
+        return False
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
     smaller, larger = small.canonical.chain, large.canonical.chain

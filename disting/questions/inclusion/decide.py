@@ -4,19 +4,10 @@ the order in which statements are sought.
 V1, V2: irreducible closures of the images, dim V1 = r1 < r2 = dim V2, so V2 inside V1 is
 impossible. What is found first is kept. Chains of different sizes are compared in `across_sizes`:
 there CLOSURE is asked alone. A dead time of the one alone is a limit of the other's at most, never
-finite. For chains of one size:
-
-1. CLOSURE by `by_elements`: it is proven where elements that vanish or grow without bound make
-   the one of the other.
-2. CLOSURE by `profiles`: degrees and projections refute it, a full image proves it.
-3. CLOSURE by rows: `closures` proves or refutes it; small ideals of both rows
-   (`disting.fibres.ideals.by_two_rows`) prove it.
-4. IMAGE, unless CLOSURE is refuted and IMAGE with it: relative degrees and Markov parameters of
-   the rows refute it without any chance; one fibre by the synthesis refutes or proves it
-   (`image`), and with it CLOSURE is proven; a small ideal refutes it.
-5. Where neither is known: the whole model as the ideal of a fibre, with the bounds of
-   `disting.fibres.ideals.bounds`. An empty fibre refutes IMAGE, a solution, whose elements may be
-   zero, proves CLOSURE.
+finite. The order of the methods is that of `decide.CLOSURE_CHAINS`, then `decide.IMAGE_CHAINS`;
+equivalents prove CLOSURE too. Where neither is known, the whole model is asked for as the ideal of
+a fibre (`decide.BOTH_CHAINS`), with the bounds of `disting.fibres.ideals.bounds`. An empty fibre
+refutes IMAGE, a solution, whose elements may be zero, proves CLOSURE.
 """
 
 from dataclasses import replace
@@ -32,6 +23,13 @@ from disting.conditions.inclusion import (
     inclusions_from_dict,
     inclusions_to_dict,
 )
+from disting.decide import (
+    BOTH_CHAINS,
+    CLOSURE_CHAINS,
+    IMAGE_CHAINS,
+    first_finding,
+    found_at_once,
+)
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import RowsInside
@@ -44,9 +42,8 @@ from disting.fibres.ideals import (
 )
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question, Settings
-from disting.questions.inclusion.across_sizes import ChainSide, by_sizes, compute
+from disting.questions.inclusion.across_sizes import ChainSide
 from disting.questions.inclusion.closures import of_closure
-from disting.questions.inclusion.image import of_image
 from disting.questions.inclusion.profiles import by_elements, by_profiles
 from disting.questions.same.exact import rational_part
 
@@ -83,15 +80,36 @@ def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     """What elements and profiles, or for chains of different sizes counts and limits, tell of
     CLOSURE; None if nothing.
     """
-    if left.chain.sensor is not right.chain.sensor:
-        return InclusionFinding(Inclusion.UNKNOWN, reason=ONE_SENSOR)
-    if left.chain.n_masses != right.chain.n_masses:
-        return by_sizes(left, right)
+    finding: InclusionFinding | None = found_at_once(CLOSURE_CHAINS.at_once, left, right)
+    return finding
+
+
+def of_two_sensors(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
+    """Not asked of two sensor quantities."""
+    if left.chain.sensor is right.chain.sensor:
+        return None
+    return InclusionFinding(Inclusion.UNKNOWN, reason=ONE_SENSOR)
+
+
+def are_of_two_sizes(left: ChainSide, right: ChainSide) -> bool:
+    """Return True for sides with different numbers of masses."""
+    return left.chain.n_masses != right.chain.n_masses
+
+
+def are_of_one_size(left: ChainSide, right: ChainSide) -> bool:
+    """Return True for sides with as many masses."""
+    return left.chain.n_masses == right.chain.n_masses
+
+
+def of_elements(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
+    """Elements that vanish or grow without bound."""
+    return by_elements(*by_rank(left, right), left.rank < right.rank)
+
+
+def of_profiles(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
+    """Degrees and projections refute, a full image proves."""
     first = left.rank < right.rank
     small, large = (left, right) if first else (right, left)
-    finding = by_elements(small.canonical.chain, large.canonical.chain, first)
-    if finding is not None:
-        return finding
     profiles = (s.profile(Representation.TF, 0) for s in (small, large))
     return by_profiles(*profiles, left_is_smaller=first)
 
@@ -100,15 +118,35 @@ def implied_image(
     left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
     """IMAGE where it follows from CLOSURE or is not asked for; None where it is to be asked for."""
-    first, second = left.chain, right.chain
-    if closure.inclusion is Inclusion.NEITHER or first.sensor is not second.sensor:
-        return closure
-    if first.dead_time != second.dead_time:
-        time = DeadTime(first.dead_time)
-        return InclusionFinding(Inclusion.NEITHER, Certainty.THEOREM, evidence=time)
-    if first.n_masses != second.n_masses:
-        return InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED)
-    return None
+    finding: InclusionFinding | None = found_at_once(IMAGE_CHAINS.at_once, left, right, closure)
+    return finding
+
+
+def of_limits(
+    left: ChainSide, right: ChainSide, closure: InclusionFinding
+) -> InclusionFinding | None:
+    """What is no limit has no equivalent; limits of two sensor quantities are not asked for."""
+    two_sensors = left.chain.sensor is not right.chain.sensor
+    return closure if closure.inclusion is Inclusion.NEITHER or two_sensors else None
+
+
+def of_dead_time(
+    left: ChainSide, right: ChainSide, closure: InclusionFinding
+) -> InclusionFinding | None:
+    """A dead time of one alone is a limit of the other's at most, never finite."""
+    if left.chain.dead_time == right.chain.dead_time:
+        return None
+    time = DeadTime(left.chain.dead_time)
+    return InclusionFinding(Inclusion.NEITHER, Certainty.THEOREM, evidence=time)
+
+
+def of_two_sizes(
+    left: ChainSide, right: ChainSide, closure: InclusionFinding
+) -> InclusionFinding | None:
+    """Not asked of chains of different sizes."""
+    if left.chain.n_masses == right.chain.n_masses:
+        return None
+    return InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED)
 
 
 def needs_ideals(image: InclusionFinding, closure: InclusionFinding) -> bool:
@@ -146,17 +184,34 @@ def closure_of(small: Chain, large: Chain, settings: Settings) -> InclusionFindi
     """CLOSURE of the model of the smaller rank in the other, by rows; by more for chains of
     different sizes.
     """
-    if small.n_masses != large.n_masses:
-        return compute(small, large, settings)
+    finding: InclusionFinding = first_finding(CLOSURE_CHAINS.rows, small, large, settings)
+    return finding
+
+
+def differ_in_size(small: Chain, large: Chain, settings: Settings) -> bool:
+    """Return True for different numbers of masses."""
+    return small.n_masses != large.n_masses
+
+
+def are_equal_in_size(small: Chain, large: Chain, settings: Settings) -> bool:
+    """Return True for as many masses."""
+    return small.n_masses == large.n_masses
+
+
+def by_rows(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
+    """Rows that lie inside those of the other, or equations against it."""
     proof = of_closure(small, large, settings.seed)
-    if proof is not None:
-        evidence, safety = proof
-        inclusion = (
-            Inclusion.LEFT_IN_RIGHT if isinstance(evidence, RowsInside) else Inclusion.NEITHER
-        )
-        return InclusionFinding(
-            inclusion, Certainty.BOUNDED if safety else Certainty.PROVEN, safety, evidence
-        )
+    if proof is None:
+        return None
+    evidence, safety = proof
+    inclusion = Inclusion.LEFT_IN_RIGHT if isinstance(evidence, RowsInside) else Inclusion.NEITHER
+    return InclusionFinding(
+        inclusion, Certainty.BOUNDED if safety else Certainty.PROVEN, safety, evidence
+    )
+
+
+def by_two_rows(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+    """Small ideals of both rows."""
     closed = included_by_rows(
         rational_part(small), rational_part(large), settings.seed, CLOSURE_LIMITS
     )
@@ -222,5 +277,19 @@ def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> I
 
 
 CLOSURE = Question.plain("closures", closure_of, inclusion_to_dict, inclusion_from_dict)
-IMAGE = Question.plain("images", of_image, inclusion_to_dict, inclusion_from_dict)
-IDEALS = Question.plain("inclusions by ideals", by_ideals, inclusions_to_dict, inclusions_from_dict)
+
+
+def image_of(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+    """IMAGE of the model of the smaller rank in the other: what is exact first, then one fibre."""
+    finding: InclusionFinding = first_finding(IMAGE_CHAINS.rows, small, large, settings)
+    return finding
+
+
+def both_of(small: Chain, large: Chain, settings: Settings) -> Inclusions:
+    """Both statements, where nothing else is known of either."""
+    both: Inclusions = found_at_once(BOTH_CHAINS.rows, small, large, settings)
+    return both
+
+
+IMAGE = Question.plain("images", image_of, inclusion_to_dict, inclusion_from_dict)
+IDEALS = Question.plain("inclusions by ideals", both_of, inclusions_to_dict, inclusions_from_dict)

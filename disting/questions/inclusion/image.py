@@ -38,19 +38,21 @@ from disting.questions.same.exact import rational_part
 LIMITS = Limits(seconds=5.0, entries=20_000, safety=LEAST_SAFETY)  # of the ideal of one fibre
 
 
-def of_image(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
-    """The model of the smaller rank searched in the other: what is exact first, then one fibre."""
-    falling = by_relative_degrees(small, large)
-    if falling is not None:
-        return falling
+def by_degrees(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
+    """Relative degrees of the rows, without any chance."""
+    return by_relative_degrees(small, large)
+
+
+def by_rows(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
+    """Markov parameters of the rows, without any chance."""
     exact = refuted_by_rows(rational_part(small), rational_part(large), settings.seed)
-    if exact is not None:
-        return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=exact)
-    decided = _by_synthesis(small, large, settings)
-    return decided if decided.is_known else _by_ideal(small, large, settings, decided)
+    if exact is None:
+        return None
+    return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=exact)
 
 
-def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+def by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
+    """One fibre, which refutes or proves."""
     unknown = InclusionFinding(
         Inclusion.UNKNOWN, reason="no method finds all equivalents with finite elements"
     )
@@ -67,14 +69,12 @@ def _by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFi
     return InclusionFinding(inclusion, Certainty.BOUNDED, decision.safety, equivalent.evidence)
 
 
-def _by_ideal(
-    small: Chain, large: Chain, settings: Settings, otherwise: InclusionFinding
-) -> InclusionFinding:
+def by_small_ideal(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
     """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
     maps = (normalise(rational_part(c)) for c in (small, large))
     decided = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
     if not isinstance(decided.evidence, Refutation) or decided.safety < LEAST_SAFETY:
-        return otherwise
+        return None
     evidence = replace(decided.evidence, is_normalised=True)
     return InclusionFinding(Inclusion.NEITHER, Certainty.BOUNDED, decided.safety, evidence)
 

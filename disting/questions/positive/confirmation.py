@@ -1,6 +1,7 @@
 """Checks evidence on positive equivalents again, from itself and the two chains alone."""
 
 from disting.algebra.certainty import Certainty
+from disting.decide import SHARE_CHAINS, check
 from disting.evidence.decision import WEAKER, Exclusion, Theorem
 from disting.evidence.kind import PointText
 from disting.evidence.positive import (
@@ -34,22 +35,7 @@ def confirms(evidence: PositiveEvidence, chain: Chain, other: Chain) -> bool:
     """
     refuse(chain, other)
     chain, other = without_dead_time(chain), without_dead_time(other)
-    match evidence:
-        case Theorem():
-            named = theorem(chain, other)
-            return named != "" and evidence.name in (named, WEAKER.get(named))
-        case Exclusion():
-            return _excluded(evidence, chain, other)
-        case EmptyFibre():
-            return _is_of(evidence.point, chain) and _is_empty(evidence.point, chain, other)
-        case Interlacing():
-            return _interlaced(evidence, chain, other)
-        case Points():
-            return _answers(evidence.with_one, chain, other, Answer.YES) and _answers(
-                evidence.without, chain, other, Answer.NO
-            )
-        case BoxMap() | OnlyOne():
-            return False  # of ranges, and of chains under several experiments
+    return check(evidence, SHARE_CHAINS.rows, chain, other)
 
 
 def proves(finding: PositiveFinding, chain: Chain, other: Chain) -> bool:
@@ -82,7 +68,26 @@ def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
             return Share.ALWAYS, Certainty.BOUNDED
 
 
-def _excluded(evidence: Exclusion, chain: Chain, other: Chain) -> bool:
+def check_theorem(evidence: Theorem, chain: Chain, other: Chain) -> bool:
+    """The theorem by its name, or by that of the weaker one."""
+    named = theorem(chain, other)
+    return named != "" and evidence.name in (named, WEAKER.get(named))
+
+
+def check_empty_fibre(evidence: EmptyFibre, chain: Chain, other: Chain) -> bool:
+    """The fibre over the point once more."""
+    return _is_of(evidence.point, chain) and _is_empty(evidence.point, chain, other)
+
+
+def check_points(evidence: Points, chain: Chain, other: Chain) -> bool:
+    """Both points once more."""
+    return _answers(evidence.with_one, chain, other, Answer.YES) and _answers(
+        evidence.without, chain, other, Answer.NO
+    )
+
+
+def check_obstacle(evidence: Exclusion, chain: Chain, other: Chain) -> bool:
+    """The obstacle once more, at its point where it has one."""
     if evidence.name != Obstacle.SWAPPED:
         return obstacle(chain, other) == evidence.name
     fails = _is_of(evidence.point, chain) and swap_fails(chain, other)
@@ -93,7 +98,7 @@ def _is_empty(point: PointText, chain: Chain, other: Chain) -> bool:
     return fibre(other, target(chain.structure, read(point))).status is Status.EMPTY
 
 
-def _interlaced(evidence: Interlacing, chain: Chain, other: Chain) -> bool:
+def check_words(evidence: Interlacing, chain: Chain, other: Chain) -> bool:
     """The rows again; points, where there are any, are looked at again."""
     same = not chain.damped and evidence.parts == row_words(chain, other) != ()
     points = ((evidence.with_one, Answer.YES), (evidence.without, Answer.NO))

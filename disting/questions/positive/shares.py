@@ -22,10 +22,10 @@ all masses and springs are positive. So every choice gives one positive model: C
 a_minus - 1) C(N-g-1, a_plus - g - 1) in all.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from disting.algebra.certainty import Certainty, about
+from disting.decide import SHARE_CHAINS, first_finding
 from disting.errors import InputError
 from disting.evidence.decision import Exclusion, Theorem
 from disting.evidence.positive import (
@@ -76,16 +76,31 @@ def positive_finding(
     refuse(chain, other)
     chain, other = without_dead_time(chain), without_dead_time(other)
     seed = (settings or Settings()).seed
-    named = theorem(chain, other)
-    if named:
-        return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Theorem(named))
-    if not all(is_plain(c) for c in (chain, other)):
+    finding: PositiveFinding | None = first_finding(SHARE_CHAINS.rows, chain, other, seed)
+    if finding is None:
         return PositiveFinding(Share.UNKNOWN, reason="ground dampers and a lag are not covered")
+    return finding
+
+
+def are_plain(chain: Chain, other: Chain, seed: str) -> bool:
+    """Return True for chains without ground dampers, lag and dead time."""
+    return is_plain(chain) and is_plain(other)
+
+
+def by_theorem(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None:
+    """Symmetry, duality, Foster, Cauer: ALWAYS."""
+    named = theorem(chain, other)
+    if not named:
+        return None
+    return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Theorem(named))
+
+
+def by_obstacle(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None:
+    """Decay, residues, own poles, signs, swapped rows: NEVER (see `obstacles`)."""
     against = obstacle(chain, other)
-    if against:
-        return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Exclusion(against))
-    compared = () if chain.damped else row_words(chain, other)
-    return _by_words(chain, other, compared, seed) if compared else _by_points(chain, other, seed)
+    if not against:
+        return None
+    return PositiveFinding(Share.NEVER, Certainty.THEOREM, evidence=Exclusion(against))
 
 
 def refuse(chain: Chain, other: Chain) -> None:
@@ -178,9 +193,11 @@ def _words(row: Row) -> Words:
     return words(row.n_masses, row.a, row.b)
 
 
-def _by_words(
-    chain: Chain, other: Chain, compared: tuple[RowWords, ...], seed: str
-) -> PositiveFinding:
+def by_words(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None:
+    """The arrangement of poles and zeros of each row of undamped chains: ALWAYS or SOMETIMES."""
+    compared = () if chain.damped else row_words(chain, other)
+    if not compared:
+        return None
     if not any(p.lacking for p in compared):
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Interlacing(compared))
     first, empirical = _sampled(chain, other, seed, TRIES)
@@ -190,10 +207,8 @@ def _by_words(
     )
 
 
-def _by_points(chain: Chain, other: Chain, seed: str) -> PositiveFinding:
-    """The swap, an empty fibre, then random points."""
-    for share in _never(chain, other, seed):
-        return share
+def by_points(chain: Chain, other: Chain, seed: str) -> PositiveFinding:
+    """Random points: one with a positive equivalent and one without."""
     first, empirical = _sampled(chain, other, seed, DAMPED_TRIES if chain.damped else TRIES)
     if Answer.YES in first and Answer.NO in first:
         evidence: PositiveEvidence = Points(first[Answer.YES], first[Answer.NO])
@@ -205,21 +220,22 @@ def _by_points(chain: Chain, other: Chain, seed: str) -> PositiveFinding:
     )
 
 
-def _never(chain: Chain, other: Chain, seed: str) -> Iterator[PositiveFinding]:
-    """Proofs that there is no equivalent, found at one rational point."""
+def by_swap(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None:
+    """Rows that would have to be exchanged, and at one rational point are not: NEVER."""
     point = rational_point(chain, about(f"positivity:{seed}", chain, other), point_bits(other))
-    if swap_fails(chain, other) and only_rows_sum_to_zero(chain, point, 2 * other.gap):
-        yield PositiveFinding(
-            Share.NEVER, Certainty.PROVEN, evidence=Exclusion(Obstacle.SWAPPED, spell(point))
-        )
+    if not (swap_fails(chain, other) and only_rows_sum_to_zero(chain, point, 2 * other.gap)):
+        return None
+    evidence = Exclusion(Obstacle.SWAPPED, spell(point))
+    return PositiveFinding(Share.NEVER, Certainty.PROVEN, evidence=evidence)
+
+
+def by_empty_fibre(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None:
+    """A rational point without any equivalent: NEVER, as surely as the point is generic."""
     finding = member(chain, other, seed)
-    if finding.membership is Membership.EXCLUDED:
-        yield PositiveFinding(
-            Share.NEVER,
-            Certainty.BOUNDED,
-            safety_of_point(other),
-            EmptyFibre(spell(finding.point)),
-        )
+    if finding.membership is not Membership.EXCLUDED:
+        return None
+    evidence = EmptyFibre(spell(finding.point))
+    return PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety_of_point(other), evidence)
 
 
 def _sampled(

@@ -8,6 +8,7 @@ from functools import partial
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.transfer import is_renaming
 from disting.conditions.finding import Finding
+from disting.decide import SAME_CHAINS, Of, check, deciders_of, recheck
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, NoShares, Refutation, Solutions
 from disting.evidence.kind import Kind, ModelSamples, SampledPair, samples_of
@@ -31,7 +32,7 @@ from disting.model.structure import Structure
 from disting.model.symmetry import between, canonical
 from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import confirms_real, proves
-from disting.questions.same.exact import rational_part, recheck, theorem
+from disting.questions.same.exact import rational_part, theorem
 from disting.questions.same.real_and_positive import real_factors
 
 
@@ -69,35 +70,43 @@ class Witness:
 
 def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
     """What the exact decision, or the one on real and positive parameters, rests on."""
-    a, b = canonical(left).chain, canonical(right).chain
-    match evidence:
-        case FibreAt():
-            return _fibre(evidence, left, right)
-        case Theorem():
-            return theorem(left, right) == evidence.name
-        case DeadTime():
-            dead_times = (left.dead_time, right.dead_time)
-            return dead_times == (evidence.left_given, not evidence.left_given)
-        case FullRows():
-            return same_by_full_rows(a.structure, b.structure, "verify") == evidence
-        case NoShares():
-            return _shares(evidence, a, b)
-        case Solutions() | Refutation():
-            coordinates = normalise if evidence.is_normalised else coefficient_map
-            maps = coordinates(rational_part(a)), coordinates(rational_part(b))
-            return holds_for(evidence, *maps)
-        case BothWays():
-            return _both_ways(evidence, a, b)
-        case OddFibres():
-            return _odd(evidence, left, right)
-        case RealFactors():
-            return real_factors(a, b)
-        case RealWitnesses():
-            return _real_witnesses(evidence, a, b)
-    return False  # of chains under several experiments, or of general models
+    return check(evidence, deciders_of(Of.CHAINS), left, right)
 
 
-def _fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
+def check_theorem(evidence: Theorem, left: Chain, right: Chain) -> bool:
+    """The theorem by its name."""
+    return theorem(left, right) == evidence.name
+
+
+def check_dead_time(evidence: DeadTime, left: Chain, right: Chain) -> bool:
+    """Which of them has one."""
+    dead_times = (left.dead_time, right.dead_time)
+    return dead_times == (evidence.left_given, not evidence.left_given)
+
+
+def check_full_rows(evidence: FullRows, left: Chain, right: Chain) -> bool:
+    """The rows of the canonical chains once more."""
+    a, b = (chain.structure for chain in _canonical(left, right))
+    return same_by_full_rows(a, b, "verify") == evidence
+
+
+def check_ideal(evidence: Solutions | Refutation, left: Chain, right: Chain) -> bool:
+    """Solutions put into both transfer functions, contradictions found again."""
+    coordinates = normalise if evidence.is_normalised else coefficient_map
+    first, second = (coordinates(rational_part(c)) for c in _canonical(left, right))
+    return holds_for(evidence, first, second)
+
+
+def check_real_factors(evidence: RealFactors, left: Chain, right: Chain) -> bool:
+    """Real factors of all degrees that are needed, both ways."""
+    return real_factors(*_canonical(left, right))
+
+
+def _canonical(left: Chain, right: Chain) -> tuple[Chain, Chain]:
+    return canonical(left).chain, canonical(right).chain
+
+
+def check_fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
     """The fibre over the stored point once more."""
     a, b = (canonical(replace(c, dead_time=False)).chain for c in (a, b))
     way = Direction.LEFT_IN_RIGHT if evidence.left_given else Direction.RIGHT_IN_LEFT
@@ -114,16 +123,18 @@ def _fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
     return finding.is_exact and finding.evidence == evidence
 
 
-def _both_ways(evidence: BothWays, a: Chain, b: Chain) -> bool:
+def check_both_ways(evidence: BothWays, left: Chain, right: Chain) -> bool:
     """What is known of either way, once more; something is."""
+    a, b = _canonical(left, right)
     ways = [
         (x, *pair) for x, pair in ((evidence.left, (a, b)), (evidence.right, (b, a))) if x.certainty
     ]
     return bool(ways) and all(proves(*way) for way in ways)
 
 
-def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
+def check_real_witnesses(evidence: RealWitnesses, left: Chain, right: Chain) -> bool:
     """Both once more."""
+    a, b = _canonical(left, right)
     chain, other = (a, b) if evidence.with_left_given else (b, a)
     witnessed = evidence.with_one.share in (Share.ALWAYS, Share.SOMETIMES) and proves(
         evidence.with_one, chain, other
@@ -133,15 +144,16 @@ def _real_witnesses(evidence: RealWitnesses, a: Chain, b: Chain) -> bool:
     )
 
 
-def _shares(evidence: NoShares, a: Chain, b: Chain) -> bool:
+def check_shares(evidence: NoShares, left: Chain, right: Chain) -> bool:
     """Every share refuted once more, at a fresh point, in the same direction."""
+    a, b = _canonical(left, right)
     tries = [(evidence.left_given, MOST)]
     again = tell_chains_apart(rational_part(a), rational_part(b), "verify", tries)
     stated = (evidence.part, evidence.shares > 0)
     return again is not None and (again[0].part, again[0].shares > 0) == stated
 
 
-def _odd(evidence: OddFibres, left: Chain, right: Chain) -> bool:
+def check_odd_fibres(evidence: OddFibres, left: Chain, right: Chain) -> bool:
     """Both numbers once more, at fresh points."""
     fresh = Settings(seed="verify")
     answers = [
@@ -160,7 +172,7 @@ def finding_holds(finding: Finding, first: Chain, second: Chain, settings: Setti
     Raises NotSeenError where that takes too long.
     """
     evidence = finding.evidence
-    if evidence is None or finding != recheck(evidence, first, second, settings):
+    if evidence is None or finding != recheck(evidence, SAME_CHAINS.rows, first, second, settings):
         return False
     if isinstance(evidence, Solutions):  # of ideals, only the labels were drawn again
         return Witness().confirms(evidence, "fibre", first, second)

@@ -38,16 +38,17 @@ as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and fu
 ranks.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.decide import SAME_CHAINS, first_finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
-from disting.evidence.ideals import FullRows, NoShares, Refutation, Solutions
-from disting.evidence.kinds import Decision, Evidence
+from disting.evidence.ideals import NoShares, Refutation, Solutions
+from disting.evidence.kinds import Decision
 from disting.fibres import ideals
 from disting.fibres.ideals import (
     MOST,
@@ -79,32 +80,30 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """Exact decision for two chains of equal rank, size and sensor; of unequal dead time they
     differ, by a theorem.
     """
-    alike = (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
-    for method in METHODS.values() if alike else OF_ANY_CHAINS.values():
-        finding = method(a, b, settings)
-        if finding is not None:
-            return finding
-    if not alike:
+    finding: Finding | None = first_finding(SAME_CHAINS.rows, a, b, settings)
+    if finding is None:
         note = "the exact decision compares chains of equal size and sensor"
         return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
-    return by_ideals(a, b, settings, LIMITS)
+    return finding
 
 
-def recheck(evidence: Evidence, a: Chain, b: Chain, settings: Settings) -> Finding | None:
-    """What the settings find with evidence of this kind on two canonical chains of equal rank, None
-    if nothing: a point, a prime or a bound that somebody chose bounds nothing.
+def are_alike(a: Chain, b: Chain, settings: Settings) -> bool:
+    """Return True for chains of one size and sensor quantity."""
+    return (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
 
-    All is computed again, of shares in the direction of the evidence alone; but for ideals: of
-    these the labels are drawn again.
-    """
-    if isinstance(evidence, Solutions | Refutation):
-        coordinates = normalise if evidence.is_normalised else coefficient_map
-        maps = (coordinates(rational_part(chain)) for chain in (a, b))
-        return by_labels(evidence, *match_maps(*maps), settings.seed)
-    if isinstance(evidence, NoShares):
-        return by_shares(a, b, settings, [(evidence.left_given, MOST)])
-    method = METHODS.get(type(evidence))
-    return None if method is None else method(a, b, settings)
+
+def recheck_labels(
+    evidence: Solutions | Refutation, a: Chain, b: Chain, settings: Settings
+) -> Finding:
+    """Of ideals the labels are drawn again."""
+    coordinates = normalise if evidence.is_normalised else coefficient_map
+    maps = (coordinates(rational_part(chain)) for chain in (a, b))
+    return by_labels(evidence, *match_maps(*maps), settings.seed)
+
+
+def recheck_shares(evidence: NoShares, a: Chain, b: Chain, settings: Settings) -> Finding | None:
+    """Shares in the direction of the evidence alone."""
+    return by_shares(a, b, settings, [(evidence.left_given, MOST)])
 
 
 def by_labels(
@@ -174,23 +173,11 @@ def by_shares(
     )
 
 
-Method = Callable[[Chain, Chain, Settings], Finding | None]
-OF_ANY_CHAINS: dict[type[object], Method] = {Theorem: by_theorem, DeadTime: by_dead_time}
-METHODS: dict[type[object], Method] = OF_ANY_CHAINS | {
-    FibreAt: by_synthesis,
-    FullRows: by_full_rows,
-    NoShares: by_shares,
-}
-"""What decides, by the evidence that it finds, in the order in which it is asked; others of chains
-of one size and sensor only.
-"""
-
-
-def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits) -> Finding:
+def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits | None = None) -> Finding:
     """In the parameters themselves, then in normalised ones: sometimes the one is much cheaper,
     sometimes the other.
     """
-    reasons: list[str] = []
+    limits, reasons = limits or LIMITS, list[str]()
     for coordinates in (coefficient_map, normalise):
         first, second = (coordinates(rational_part(c)) for c in (a, b))
         if first.degrees != second.degrees:

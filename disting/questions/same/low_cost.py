@@ -18,16 +18,11 @@ from disting.behaviour.profile import (
 )
 from disting.conditions.finding import Finding, Outcome
 from disting.conditions.rule import EXACT
+from disting.decide import SAME_CHAINS_PATIENTLY, SAME_CHAINS_QUICKLY, first_finding
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
 from disting.model.question import Question, Settings
-from disting.questions.same.exact import (
-    by_full_rows,
-    by_ideals,
-    by_shares,
-    by_synthesis,
-    by_theorem,
-)
+from disting.questions.same.exact import by_ideals, by_synthesis
 
 SECONDS = 60.0
 # the work is limited long before the time
@@ -42,10 +37,12 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """What is cheap of `exact.exact_finding`, for chains of equal rank and size without dead time;
     ABANDONED where it is silent.
     """
-    for method in (by_theorem, by_full_rows):
-        finding = method(a, b, settings)
-        if finding is not None:
-            return finding
+    finding: Finding = first_finding(SAME_CHAINS_QUICKLY.rows, a, b, settings)
+    return finding
+
+
+def by_synthesis_in_time(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """The synthesis, given up after SECONDS."""
     try:
         with _limited(SECONDS):
             by_fibre = by_synthesis(a, b, settings)
@@ -62,8 +59,13 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
 
 def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
     """What shares and ideals say where the synthesis has no method, in a second to some minutes."""
-    apart = by_shares(a, b, settings)
-    return by_ideals(a, b, settings, LIMITS) if apart is None else apart
+    finding: Finding = first_finding(SAME_CHAINS_PATIENTLY.rows, a, b, settings)
+    return finding
+
+
+def by_small_ideals(a: Chain, b: Chain, settings: Settings) -> Finding:
+    """The ideals within the limits of a class."""
+    return by_ideals(a, b, settings, LIMITS)
 
 
 def quick_profile(chain: Chain, settings: Settings) -> Profile:

@@ -26,6 +26,7 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import Certainty, Grade, weakest
 from disting.conditions.finding import NOT_REAL, Finding, Outcome
 from disting.conditions.rule import ADMISSIBLE
+from disting.decide import REAL_CHAINS, first_finding
 from disting.errors import InputError
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import RATIONAL, Theorem
@@ -108,16 +109,26 @@ def witness_ways(left: Chain, right: Chain) -> tuple[tuple[Chain, Chain], ...]:
 
 def real_finding(left: Chain, right: Chain, asked: Answerers) -> Finding:
     """Over real parameters, for pairs of canonical chains that are equal over C."""
+    finding: Finding = first_finding(REAL_CHAINS.rows, left, right, asked)
+    return finding
+
+
+def by_rational_map(left: Chain, right: Chain, asked: Answerers) -> Finding | None:
+    """A theorem whose map takes real parameters to real ones."""
     named = rational_map(left, right)
-    if named:
-        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
-    if real_factors(left, right):
-        return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=RealFactors())
-    finding = _by_witnesses(left, right, asked)
-    return by_counts(asked.counted(left), asked.counted(right)) if finding is None else finding
+    if not named:
+        return None
+    return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=Theorem(named))
 
 
-def _by_witnesses(left: Chain, right: Chain, asked: Answerers) -> Finding | None:
+def by_real_factors(left: Chain, right: Chain, asked: Answerers) -> Finding | None:
+    """Real factors of all degrees that are needed, both ways."""
+    if not real_factors(left, right):
+        return None
+    return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.THEOREM, evidence=RealFactors())
+
+
+def by_witnesses(left: Chain, right: Chain, asked: Answerers) -> Finding | None:
     """An open set of real models without real equivalents, and positive ones with a positive
     equivalent.
     """
@@ -139,6 +150,11 @@ def _by_witnesses(left: Chain, right: Chain, asked: Answerers) -> Finding | None
                 evidence=evidence,
             )
     return None
+
+
+def by_odd_fibres(left: Chain, right: Chain, asked: Answerers) -> Finding:
+    """The numbers of solutions of both, as far as they are known."""
+    return by_counts(asked.counted(left), asked.counted(right))
 
 
 def by_counts(left: Identifiability, right: Identifiability) -> Finding:

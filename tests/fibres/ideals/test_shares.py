@@ -30,7 +30,7 @@ from disting.model.question import Membership, Settings
 from disting.model.row import Row, rows_of
 from disting.model.symmetry import canonical
 from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import by_shares, exact_finding, recheck
+from disting.questions.same.exact import by_shares, exact_finding, recheck_shares
 
 S = sympy.Symbol("s")
 
@@ -188,7 +188,7 @@ def test_rows_with_dampers_to_the_ground_alone_are_told_apart(left, right, part)
     found = by_shares(a, b, Settings())
     assert found.evidence.part == part
     assert found.safety >= 100
-    assert recheck(found.evidence, a, b, Settings()) == found
+    assert recheck_shares(found.evidence, a, b, Settings()) == found
     assert Witness().confirms(found.evidence, "fibre", a, b)
     assert not Witness().confirms(found.evidence, "fibre", a, a)
 
