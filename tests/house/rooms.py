@@ -24,8 +24,13 @@ def room_of(module: str) -> str | None:
 
 
 def imported(path: Path) -> Iterator[str]:
-    """Modules of the package that a file imports, anywhere in it."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    """Modules of the package that a file imports, anywhere in it, but for the list of public names
+    of a package: `disting.fit` offers those of `planning` too, which stands above it.
+    """
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    if path.name == "__init__.py":
+        tree.body = [node for node in tree.body if not isinstance(node, ast.If)]
+    for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and node.module:
             yield node.module
             yield from (f"{node.module}.{alias.name}" for alias in node.names)
