@@ -70,7 +70,7 @@ def run(number: int) -> list[dict[str, object]]:
     draw = np.random.default_rng(10_000 + number)
     noise = (draw.normal(size=LINES) + 1j * draw.normal(size=LINES)) * NOISE
     data = FrequencyResponse(omega, true * (1 + noise))
-    cost = Cost(data, Case.COMPLEX, lines=1 / (NOISE * np.abs(data.G)) ** 2)
+    cost = Cost(data, Case.COMPLEX, lines=1 / (NOISE * np.abs(data.G)))
     task = Task(cost)
     both = [c for c in (chain, larger(chain)) if c is not None]
     begun = process_time()
