@@ -46,7 +46,7 @@ import numpy as np
 from scipy.stats import chi2 as chi2_distribution, f as f_distribution, norm
 
 from disting.fit.noise.covariance import Noise, correlation, noise
-from disting.fit.noise.scatter import Scatter, change, scatter, widen
+from disting.fit.noise.scatter import DIFFERENCE, Scatter, change, scatter, widen
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
@@ -286,7 +286,8 @@ def explanation(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) 
         chi2_apart=apart,
         worst_apart=worst,
         lines=len(cost.measured),
-        systematic=systematic_share(residual, missed),
+        # a machine that changes does so alike at neighbouring lines: no sign of its structure
+        systematic=0.0 if own_scatter.source == DIFFERENCE else systematic_share(residual, missed),
     )
 
 
