@@ -272,7 +272,8 @@ def _members(
 def _outside(fits: Fits, chosen: Choice) -> tuple[Outside, ...]:
     """Machines outside the candidates that explain the data on which these are judged."""
     said, described = chosen.explanation, chosen.selected or chosen.candidates[0]
-    if said.noisy or said.too_few:
+    is_by_scatter = fits.task is not fits.search  # else the chain is not where its misfit is least
+    if said.noisy or said.too_few or not is_by_scatter:
         return ()
     bases = all(c.chain.gap == 0 for c in chosen.candidates)
     judging = fits.test or fits.task.cost

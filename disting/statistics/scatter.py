@@ -248,6 +248,7 @@ WRONG = 2.0  # factor by which standard deviations are too large before that is 
 TINY = 1e-12  # share of a variance that is as good as nothing
 WORSE = 4.0  # ratio of variances from which on no fitted response is near the truth
 JUMPS = "neighbouring lines, which jump by more than their standard deviations"
+DIFFERENCE = "the difference of training and test data"
 CLEAR = 0.2  # rho below which a line carries information
 
 
@@ -445,9 +446,7 @@ def widen(own: Scatter, tau: float) -> Scatter:
     """The scatter with what a machine changes by between two measurements."""
     if not tau:
         return own
-    return replace(
-        own, rho=np.hypot(own.rho, tau), source="the difference of training and test data"
-    )
+    return replace(own, rho=np.hypot(own.rho, tau), source=DIFFERENCE)
 
 
 def nearest_lines(

@@ -51,7 +51,7 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.presentation import summary
 from disting.statistics.covariance import Noise, correlation, noise
-from disting.statistics.scatter import Scatter, change, scatter, widen
+from disting.statistics.scatter import DIFFERENCE, Scatter, change, scatter, widen
 
 # chi2 per line up to which a model explains the data: what a machine does beside being a chain
 LARGEST = 3.0
@@ -286,7 +286,8 @@ def explanation(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) 
         chi2_apart=apart,
         worst_apart=worst,
         lines=len(cost.measured),
-        systematic=systematic_share(residual, missed),
+        # a machine that changes does so alike at neighbouring lines: no sign of its structure
+        systematic=0.0 if own_scatter.source == DIFFERENCE else systematic_share(residual, missed),
     )
 
 

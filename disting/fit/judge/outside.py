@@ -27,6 +27,7 @@ The search is local: that none was found is no proof.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,6 +106,7 @@ def machines_outside(
     found = [
         outside
         for machine in _machines(candidate, bases)
+        if all(0 < value < inf for value in machine.start.values())
         for outside in _judged(
             machine, _with_friction_shown(machine, fitted), judged, candidate.n_parameters
         )
