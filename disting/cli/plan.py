@@ -30,8 +30,8 @@ from disting.fit.search.starts import Parameters
 from disting.measurement import read
 from disting.measurement.arrays import Real
 from disting.measurement.impedance import as_impedance
+from disting.model.chain import Sort
 from disting.model.names import damping_option
-from disting.model.structure import Sort
 from disting.report.fit.plan_page import write_plans
 from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.write import write_plan

@@ -29,11 +29,10 @@ from disting.fit.search.containment import contains
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Damper
 from disting.model.family import Family
 from disting.model.names import chain_of_whole_name
 from disting.model.presentation import plural, summary
-from disting.model.structure import Damper
 from disting.store.scheduling import map_tasks
 
 # masses up to which every set of ground dampers is looked at; beyond, sets as large as the member's

@@ -15,7 +15,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.practical import standard_errors
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Complex, Real
-from disting.model.structure import Structure
+from disting.model.chain import Structure
 from disting.simulation import matrices, port_vectors
 
 # of the fastest root: rounding spreads the double pole of a free chain at zero this far

@@ -15,7 +15,7 @@ from disting.fit.results.selection import Confidence
 from disting.fit.search.network_plant import network_plant
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 
 POINTS = 400  # of a line
 HIGHEST = 20.0  # phases are shown below this angle and 90 for each differentiation [degree]

@@ -14,8 +14,7 @@ from disting.fit.plan.rival import Limit, Rival
 from disting.fit.plan.sample import POWER
 from disting.fit.plan.search import AnyStructure, name_of
 from disting.fit.search.candidates import reference
-from disting.model.chain import Chain, text_drawing
-from disting.model.structure import Sort
+from disting.model.chain import Chain, Sort, text_drawing
 from disting.report.fit.links import next_command, plan_command
 from disting.report.fit.words import percent, readable
 from disting.verdict.result import Relation
