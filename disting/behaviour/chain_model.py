@@ -28,8 +28,8 @@ from disting.behaviour.transfer import (
     receptance,
     values_at,
 )
+from disting.model.chain import Structure
 from disting.model.protocol import Columns, Degrees
-from disting.model.structure import Structure
 
 REMEMBERED = 4096
 Powers = tuple[frozenset[int], frozenset[int]]

@@ -25,9 +25,9 @@ from disting.behaviour.sample import (
     samples,
     seen_at,
 )
+from disting.model.chain import Structure
 from disting.model.protocol import Model
 from disting.model.question import Settings
-from disting.model.structure import Structure
 
 REMEMBERED = 64
 SEARCHES = 3  # points modulo 31 bits: with thousands of models one is special now and then

@@ -38,9 +38,8 @@ from flint import fmpz_mpoly
 
 from disting.algebra.determinants import Ring, Tridiagonal, rank
 from disting.algebra.symbols import Expr, coefficients, quotient, rename_symbols, symbol, symbols
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Element, Ports, Sensor, Structure, power
 from disting.model.names import read_together
-from disting.model.structure import Element, Ports, Structure, power
 from disting.renamed import renamed
 
 Value = TypeVar("Value")

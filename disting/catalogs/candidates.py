@@ -21,10 +21,9 @@ from disting.catalogs.files import Record, lines, shipped_folder, write_provenan
 from disting.conditions.rule import RULES
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Indices, Sensor
 from disting.model.names import name_of
 from disting.model.presentation import plural, summary
-from disting.model.structure import Indices
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.query import Query, View
 from disting.verdict.result import Relation

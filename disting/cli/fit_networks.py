@@ -21,8 +21,7 @@ from disting.fit.search.machines import as_machine, each_once, with_ground_dampe
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
 from disting.measurement.look_text import short_lines
-from disting.model.chain import Sensor
-from disting.model.structure import Sort
+from disting.model.chain import Sensor, Sort
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 from disting.network.notation.member import FAMILY

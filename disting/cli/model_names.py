@@ -12,9 +12,8 @@ from disting.cli.output import keep_apart
 from disting.errors import InputError
 from disting.general import AnyModel, MatrixModel, read_models
 from disting.general.any_model import as_chain, of_network
-from disting.model.chain import Chain, Sensor, text_drawing
+from disting.model.chain import Chain, Sensor, Sort, text_drawing
 from disting.model.names import NAME, damping_option, read_together
-from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of, values_in
 

@@ -25,10 +25,9 @@ from disting.errors import InputError, enumeration, printable
 from disting.experiments.experiment import places_of
 from disting.experiments.menu import Costs, Item
 from disting.files import json_text
-from disting.model.chain import LEGEND, Chain, text_drawing
+from disting.model.chain import LEGEND, Chain, Sort, text_drawing
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import name_of, read, read_together
-from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.verdict.engine import Engine
 from disting.verdict.next_experiments import Menu, menu_for

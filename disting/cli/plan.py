@@ -19,8 +19,8 @@ from disting.fit.search.starts import Parameters
 from disting.measurement import read
 from disting.measurement.arrays import Real
 from disting.measurement.impedance import as_impedance
+from disting.model.chain import Sort
 from disting.model.names import damping_option
-from disting.model.structure import Sort
 from disting.planning.fit_file import (
     FitRecord,
     NamedNetworks,

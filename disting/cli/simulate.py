@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from disting.cli.arguments import add_damped, add_notation, add_quantity, quantity_word, refuse
 from disting.cli.output import emit, written_file
 from disting.errors import InputError, short
-from disting.model.chain import Chain, Sensor
-from disting.model.structure import Sort
+from disting.model.chain import Chain, Sensor, Sort
 from disting.network.network import Network
 
 if TYPE_CHECKING:

@@ -17,10 +17,9 @@ from disting.conditions.inclusion import Inclusions
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding
-from disting.model.chain import Chain, Premise
+from disting.model.chain import Chain, Premise, Structure
 from disting.model.protocol import Columns, Model
 from disting.model.question import Answerer, Domain, Models, Question, Settings, compute
-from disting.model.structure import Structure
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""

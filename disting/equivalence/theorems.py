@@ -34,8 +34,7 @@ from disting.behaviour.transfer import plain_receptance
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Solution, target
 from disting.fibres.synthesis.theorems import are_dual, dual
-from disting.model.chain import Chain
-from disting.model.structure import Ports, Structure
+from disting.model.chain import Chain, Ports, Structure
 from disting.model.symmetry import forms
 
 Outwards = tuple[

@@ -15,10 +15,9 @@ from itertools import pairwise
 from disting.behaviour.transfer import touched_rows
 from disting.errors import ConstraintViolation, InputError, enumeration, short
 from disting.experiments.changes import Change, changes_of, in_order
-from disting.model.chain import AS_IT_IS, Chain
+from disting.model.chain import AS_IT_IS, Chain, Element, Known, Ports, Sort, Structure
 from disting.model.kinds import CHANGES, Kind
 from disting.model.presentation import summary
-from disting.model.structure import Element, Known, Ports, Sort, Structure
 from disting.network.network import Network
 from disting.quantities import Sensor, sensor_of_model
 

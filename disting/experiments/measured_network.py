@@ -23,10 +23,9 @@ from disting.experiments.menu import Gain
 from disting.general.any_model import as_chain
 from disting.general.matrix_model import AnyModel, MatrixModel, of_ratios
 from disting.general.response import network_powers, network_ratios
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sort
 from disting.model.kinds import Kind
 from disting.model.presentation import summary
-from disting.model.structure import Sort
 from disting.network import Network, Port
 
 Ratios = tuple[tuple[RationalFunction, ...], ...]

@@ -41,7 +41,7 @@ from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.measurement.response import NO_MOTION
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 from disting.network.network import Network
 from disting.statistics.covariance import expected_deviation
 from disting.statistics.scatter import Scatter

@@ -23,9 +23,8 @@ from disting.general.expansion import TooLargeError
 from disting.general.matrix_model import AnyModel, MatrixModel
 from disting.general.model import Model, Terms
 from disting.general.powers import Cell, Powers, in_v, out_of_v, separating_weights
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sort
 from disting.model.question import Settings
-from disting.model.structure import Sort
 from disting.network.chains import RenamedChain, as_renamed_chain
 from disting.network.denotation import Naming, naming_of
 from disting.network.network import Network

@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 from disting.errors import InputError, short
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Indices, violations
 from disting.model.presentation import NotebookTable
-from disting.model.structure import Indices, violations
 from disting.quantities import Sensor, sensor_of_model
 
 

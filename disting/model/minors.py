@@ -29,7 +29,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 
-from disting.model.structure import Element, Structure
+from disting.model.chain import Element, Structure
 
 REMEMBERED = 1024  # structures whose joints are kept
 TIMES = {"T1", "Td"}  # parameters of a lag and of a dead time

@@ -13,9 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from disting.errors import ConstraintViolation, InputError, short
-from disting.model.chain import Chain, Sensor, as_sensor
+from disting.model.chain import Chain, Damper, Sensor, as_sensor
 from disting.model.family import MOST_MASSES, Family
-from disting.model.structure import Damper
 
 MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
 EXTRAS = r"(?:\+(?:b\d{1,2}|lag|delay))*"  # behind a model's number

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from disting.errors import InputError
-from disting.model.structure import Damper, Element, GroundDamper, Mass, Ports, Spring, Structure
+from disting.model.chain import Damper, Element, GroundDamper, Mass, Ports, Spring, Structure
 
 FREE, GROUNDED = "free", "grounded"
 

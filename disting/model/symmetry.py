@@ -14,8 +14,7 @@ from functools import lru_cache
 from itertools import product
 
 from disting.errors import InputError
-from disting.model.chain import Chain
-from disting.model.structure import Element
+from disting.model.chain import Chain, Element
 
 REMEMBERED = 4096  # canonical forms; everything about a pair asks for them again
 

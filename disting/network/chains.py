@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from disting.errors import ConstraintViolation, InputError
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Damper, GroundDamper, Mass, Sensor, Sort, Spring, Structure
 from disting.model.names import name_of
 from disting.model.presentation import AS_CHAIN
-from disting.model.structure import Damper, GroundDamper, Mass, Sort, Spring, Structure
 from disting.network.element import Element, Port
 from disting.network.network import Network
 

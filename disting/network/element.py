@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from disting.errors import InputError, short
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ from collections import Counter
 from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 from disting.network.element import Element
 from disting.network.network import Network
 

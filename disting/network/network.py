@@ -13,8 +13,8 @@ from functools import lru_cache
 from math import lcm
 
 from disting.errors import InputError, short
+from disting.model.chain import Sort
 from disting.model.presentation import NotebookPicture, plural, summary
-from disting.model.structure import Sort
 from disting.network.element import Element, Port
 from disting.network.graph import edges, parts, renumber, seen_by_blocks, seen_by_flows
 from disting.quantities import refuse_improper

@@ -14,7 +14,7 @@ from functools import lru_cache
 from itertools import islice, pairwise, permutations, product
 from typing import Any
 
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 from disting.network.element import KINDS, PHASE, Element, Port
 from disting.network.gears import without_gears
 from disting.network.network import Network

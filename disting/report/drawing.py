@@ -28,9 +28,8 @@ from markupsafe import Markup
 
 from disting.experiments.changes import Change
 from disting.experiments.menu import Item
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Element
 from disting.model.kinds import FORCE, SENSOR, Kind
-from disting.model.structure import Element
 from disting.report.png import png
 from disting.report.scene import (
     PAGE_PALETTE,

@@ -19,8 +19,7 @@ from disting.catalogs import Catalog
 from disting.catalogs.dampers import DamperFamily
 from disting.catalogs.files import damper_name
 from disting.catalogs.sizes import SizesCatalog
-from disting.model.chain import Chain
-from disting.model.structure import Indices, violations
+from disting.model.chain import Chain, Indices, violations
 from disting.network.families import family_with
 from disting.quantities import MODELLED
 from disting.report.damper_page import family_title

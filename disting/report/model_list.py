@@ -19,8 +19,8 @@ from disting.errors import InputError, of_type
 from disting.files import as_path, write_whole
 from disting.general import AnyModel, Model, ModelList
 from disting.general.any_model import measurand
+from disting.model.chain import Sort
 from disting.model.presentation import plural
-from disting.model.structure import Sort
 from disting.network.network import Network
 from disting.report.drawing import share
 from disting.report.environment import render, source

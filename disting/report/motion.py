@@ -20,8 +20,7 @@ from markupsafe import Markup
 from disting.catalogs import Catalog
 from disting.evidence.positive import Share
 from disting.general.matrix_model import AnyModel
-from disting.model.chain import Chain, Sensor
-from disting.model.structure import Sort
+from disting.model.chain import Chain, Sensor, Sort
 from disting.network import Element, Network
 from disting.network.gears import unknown_ratios, without_gears
 from disting.network.graph import edges

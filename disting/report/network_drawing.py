@@ -20,8 +20,7 @@ from itertools import accumulate, combinations
 from math import cos, pi, sin
 
 from disting.general import AnyModel, as_chain
-from disting.model.chain import Chain, Sensor
-from disting.model.structure import Sort
+from disting.model.chain import Chain, Sensor, Sort
 from disting.network import Element, Network
 from disting.network.graph import edges
 from disting.report.drawing import draw

@@ -23,8 +23,7 @@ from disting.errors import InputError, enumeration, short
 from disting.files import read_bounded
 from disting.measurement import Signal, TimeSeries
 from disting.measurement.arrays import Complex, Real
-from disting.model.chain import Chain, Sensor
-from disting.model.structure import Sort
+from disting.model.chain import Chain, Sensor, Sort
 from disting.network.network import Network
 from disting.simulation.mechanics import (
     AnyModel,

@@ -25,8 +25,7 @@ import numpy as np
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Complex, Real
-from disting.model.chain import Chain
-from disting.model.structure import Sort, Structure
+from disting.model.chain import Chain, Sort, Structure
 from disting.network.chains import elements_of, ports_of
 from disting.network.element import Element, Port
 from disting.network.network import Network

@@ -18,10 +18,9 @@ from disting.evidence.conditions import Renaming
 from disting.evidence.kind import PointText
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding, Share
-from disting.model.chain import Chain, Premise
+from disting.model.chain import Chain, Premise, Structure
 from disting.model.minors import embeddings
 from disting.model.question import Domain, Question
-from disting.model.structure import Structure
 from disting.model.symmetry import Form, between, canonical
 from disting.questions.identifiability import IDENTIFIABILITY, Identifiability
 from disting.questions.inclusion.confirmation import confirms as confirms_inclusion

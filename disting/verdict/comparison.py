@@ -24,10 +24,9 @@ from disting.experiments.experiment import Experiment
 from disting.experiments.measured_network import measure
 from disting.general import AnyModel, MatrixModel, Model
 from disting.general.model_side import ComparedModel
-from disting.model.chain import Chain, Sensor, as_sensor
+from disting.model.chain import Chain, Sensor, Structure, as_sensor
 from disting.model.names import read_together
 from disting.model.question import Domain
-from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 from disting.questions.identifiability import Identifiability, ParameterIdentifiability
 from disting.renamed import renamed

@@ -15,10 +15,9 @@ from typing import Generic, TypeVar
 from disting.errors import InputError
 from disting.experiments.experiment import places_of
 from disting.experiments.menu import Costs, Item
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Sort
 from disting.model.kinds import CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS, Kind
 from disting.model.presentation import NotebookTable, plural, summary
-from disting.model.structure import Sort
 from disting.network.chains import of_chain
 from disting.network.network import Network
 from disting.verdict.engine import Engine, Progress, silent

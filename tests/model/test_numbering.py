@@ -6,10 +6,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from disting import Family, InputError, Sensor, compare, verify
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Indices, violations
 from disting.model.family import MOST_MASSES, after, before, count
 from disting.model.names import name_of, read
-from disting.model.structure import Indices, violations
 from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Status
 from tests.cli.process import called

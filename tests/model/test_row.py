@@ -7,8 +7,8 @@ import sympy as sp
 
 from disting import Chain, Family
 from disting.errors import InputError
+from disting.model.chain import Damper, GroundDamper, Ports, Spring
 from disting.model.row import FREE, GROUNDED, Row, canonical_rows, grounded_and_free, rows_of
-from disting.model.structure import Damper, GroundDamper, Ports, Spring
 
 S = sp.Symbol("s")
 CHAINS = [

@@ -9,7 +9,7 @@ from itertools import combinations
 from disting import local_identifiability
 from disting.errors import InputError
 from disting.general.any_model import of_network
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 from disting.network import Element, Network, Port
 from disting.network.families import family_of
 

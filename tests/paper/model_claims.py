@@ -8,7 +8,7 @@ from itertools import combinations
 
 from disting import Chain, Family, Query, Relation, Sensor, Verdict, View
 from disting.catalogs.dampers import DamperSets, spell
-from disting.model.structure import Indices, violations
+from disting.model.chain import Indices, violations
 from tests.paper.claim import Claim, Findings, Observation, Observed, families, models, name_list
 
 SIZES = (1, 2, 3, 4)

@@ -14,9 +14,8 @@ from disting import Family, compare, network_of
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
-from disting.model.chain import Chain
+from disting.model.chain import Chain, violations
 from disting.model.names import chain_of
-from disting.model.structure import violations
 from disting.model.symmetry import Symmetry, forms
 from disting.report import write_report
 from disting.report.drawing import draw, part_name

@@ -9,7 +9,7 @@ from pathlib import Path as File
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 from PIL import Image
 
 from disting import Network, network_of
@@ -29,7 +29,8 @@ from tests.cli.process import called
 from tests.network.drawn import built, descriptions
 from tests.oracles.plain_network import response
 
-few = settings(max_examples=60, deadline=None)
+# a family is listed when one of its networks is drawn first, which a busy machine does slowly
+few = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 SHOWN = ("machines-2-damped", "machines-3-damped", "trees-4", "circuits-5", "cells-4", "compartments-3")  # fmt: skip
 HARD = (
     "1=2=3=4=1, 1=3, 2=4; F1; S3", "1=2*i, 2~3, 3=#, 3-1; F1; S1 S3", "1=2, 3=4, 4~#; F1:3; S2:4",

@@ -37,7 +37,7 @@ from disting.measurement import FrequencyResponse, look, write_csv
 from disting.model.presentation import NotebookTable
 from disting.questions.identifiability.analysis import identifiability
 from disting.report import chain_svg
-from disting.report.notebook.tables import table_of
+from disting.report.notebook import table_of
 
 mpl.use("Agg")
 DRIVE = Chain(2, damped=True, ground_dampers=(1,))

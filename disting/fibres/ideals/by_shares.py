@@ -24,8 +24,8 @@ from disting.evidence.ideals import NoShares
 from disting.fibres.ideals.factored_map import row_factors
 from disting.fibres.ideals.shares import TRIES, Try, tell_apart
 from disting.fibres.ideals.splits import gap, poles_are_inseparable
+from disting.model.chain import Structure
 from disting.model.row import rows_of
-from disting.model.structure import Structure
 
 
 def tell_chains_apart(

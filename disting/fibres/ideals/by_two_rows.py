@@ -37,8 +37,8 @@ from disting.fibres.ideals.splits import (
     splits,
 )
 from disting.fibres.ideals.system import CoefficientMap
+from disting.model.chain import Structure
 from disting.model.question import Membership
-from disting.model.structure import Structure
 
 # for up to eight statements: at most two rows in three splits, and the ranks that they rest on
 SPARE_BITS = 3

@@ -20,8 +20,8 @@ from functools import cache
 from disting.evidence.ideals import SAME, FullRows
 from disting.fibres.ideals.fibre_ideal import generic_rank
 from disting.fibres.ideals.system import Terms, receptance_map
+from disting.model.chain import Structure
 from disting.model.row import Row, rows_of
-from disting.model.structure import Structure
 
 LABEL = "full rows"
 

@@ -54,8 +54,8 @@ from disting.fibres.ideals.system import (
     separate,
     unknowns,
 )
+from disting.model.chain import Structure
 from disting.model.row import rows_of
-from disting.model.structure import Structure
 
 SAME = "same"  # the split of a chain into its own rows
 DRAWS = 400  # a degree m needs about 2 m of them

@@ -33,8 +33,8 @@ from disting.algebra.certainty import digest
 from disting.algebra.symbols import rename_symbols, symbols
 from disting.behaviour.transfer import expand
 from disting.errors import InputError
+from disting.model.chain import Structure
 from disting.model.row import Row, rows_of
-from disting.model.structure import Structure
 
 REMEMBERED = 256  # structures whose maps are kept: each is asked for in many pairs
 SCALE = "scale"  # the unknown common factor of numerator and denominator

@@ -61,10 +61,9 @@ from disting.fibres.synthesis.task import (
     poles_at_zero,
     rests_differently,
 )
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Damper, GroundDamper, Mass, Spring
 from disting.model.question import Answer
 from disting.model.row import Row, grounded_and_free
-from disting.model.structure import Damper, GroundDamper, Mass, Spring
 from disting.model.symmetry import canonical
 
 PRECISIONS = (192, 384, 768, 1536, 3072, 5000)

@@ -8,9 +8,9 @@ from flint import acb, acb_poly, fmpq, fmpq_poly
 
 from disting.behaviour.transfer import plain_receptance
 from disting.fibres.synthesis.branch import Receptance
+from disting.model.chain import Structure
 from disting.model.question import Answer
 from disting.model.row import Row
-from disting.model.structure import Structure
 
 Ball = acb
 Exact = fmpq_poly

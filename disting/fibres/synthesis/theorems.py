@@ -60,9 +60,8 @@ from disting.fibres.synthesis.branch import Imprecise, RowValues
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.methods import is_covered, synthesise
 from disting.fibres.synthesis.task import Exact, Point, Target, target
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Ports
 from disting.model.row import Row, grounded_and_free, rows_of
-from disting.model.structure import Ports
 from disting.model.symmetry import canonical
 
 Law = tuple[Scalar, ...]  # (c, d) of a spring and its damper, (c,) undamped

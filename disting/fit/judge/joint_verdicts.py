@@ -21,8 +21,7 @@ from disting.fit.search.exchange import SEARCHED, body, estimates
 from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.fit.search.setup import Setup, measurable, measured_chain
 from disting.measurement.arrays import Complex
-from disting.model.chain import Chain
-from disting.model.structure import Structure
+from disting.model.chain import Chain, Structure
 from disting.store import Store
 from disting.verdict.engine import Engine
 from disting.verdict.query import Query, View

@@ -27,11 +27,10 @@ from disting.fit.search.containment import contains
 from disting.fit.search.descent import fine
 from disting.fit.search.estimate import Task
 from disting.fit.search.joint import AnyCost
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Damper
 from disting.model.family import Family
 from disting.model.names import chain_of_whole_name
 from disting.model.presentation import plural, summary
-from disting.model.structure import Damper
 from disting.statistics.covariance import expected_deviation
 from disting.statistics.practical import practical
 from disting.store.scheduling import map_tasks

@@ -14,7 +14,7 @@ from scipy.linalg import eig
 from disting.fit.judge.candidate import Candidate
 from disting.fit.search.estimate import Task
 from disting.measurement.arrays import Complex, Real
-from disting.model.structure import Structure
+from disting.model.chain import Structure
 from disting.simulation import matrices, port_vectors
 from disting.statistics.practical import standard_errors
 

@@ -26,8 +26,7 @@ from disting.fit.results.samples import ParameterSamples, draw_samples, with_twi
 from disting.fit.search.estimate import Task
 from disting.fit.search.plant import Plant
 from disting.measurement.arrays import Complex, Real, spread
-from disting.model.chain import Chain
-from disting.model.structure import Structure
+from disting.model.chain import Chain, Structure
 
 LINES = 400  # of a response that is drawn, at most
 WIDE, WIDE_LEVEL = 1.5, 3.0  # ratio of the ends of a range, and dB, from which on a note says why

@@ -26,9 +26,8 @@ from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real, spread
 from disting.measurement.observation import Observation
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Structure
 from disting.model.presentation import plural, summary
-from disting.model.structure import Structure
 from disting.statistics.scatter import Scatter
 
 NOISE = 3.0  # times the usual step of a response from line to line: what noise may make

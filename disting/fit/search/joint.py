@@ -21,9 +21,8 @@ from disting.fit.search.plant import Motion, Plant
 from disting.fit.search.setup import Setup, measurable
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Structure
 from disting.model.presentation import plural, summary
-from disting.model.structure import Structure
 from disting.statistics.scatter import Scatter
 
 

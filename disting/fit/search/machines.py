@@ -3,8 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
-from disting.model.chain import Chain
-from disting.model.structure import Sort
+from disting.model.chain import Chain, Sort
 from disting.network.chains import of_chain
 from disting.network.element import Element
 from disting.network.isomorphism import is_same_network

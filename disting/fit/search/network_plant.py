@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 from disting.network.element import Element, Port
 from disting.network.network import Network
 

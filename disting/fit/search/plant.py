@@ -28,7 +28,7 @@ from scipy.sparse import csr_array
 from disting.errors import InputError
 from disting.measurement.arrays import Complex, Real
 from disting.measurement.observation import Observation
-from disting.model.structure import Ports, Structure
+from disting.model.chain import Ports, Structure
 
 Rows = slice | NDArray[np.intp]
 ROUNDING = 2.0**-52

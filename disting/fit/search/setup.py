@@ -13,8 +13,7 @@ from functools import partial
 from disting.errors import InputError, short
 from disting.experiments.changes import Change, changes_of, in_order
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain, Place
-from disting.model.chain import Chain, Sensor
-from disting.model.structure import Ports, Structure
+from disting.model.chain import Chain, Ports, Sensor, Structure
 
 
 @dataclass(frozen=True, slots=True, init=False)

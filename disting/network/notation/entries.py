@@ -15,8 +15,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from disting.errors import InputError, enumeration, of_type, short
-from disting.model.chain import Sensor, as_sensor
-from disting.model.structure import Sort
+from disting.model.chain import Sensor, Sort, as_sensor
 from disting.network.element import KINDS, Element, Port, kind_of
 from disting.network.network import Network
 from disting.network.notation import DIALECTS, NOTATIONS, network_of

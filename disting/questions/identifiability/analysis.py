@@ -18,10 +18,9 @@ from disting.algebra.certainty import Certainty, Grade, enough
 from disting.behaviour.chain_model import ChainModel
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.task import Status
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Sensor, Structure
 from disting.model.names import read_together
 from disting.model.question import Answer, Question, Settings
-from disting.model.structure import Structure
 from disting.model.symmetry import Form, canonical
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.identifiability.functions import Basis, Candidate, basis

@@ -25,7 +25,7 @@ from disting.algebra.quotient import matrix
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.transfer import expand
-from disting.model.structure import Structure
+from disting.model.chain import Structure
 from disting.questions.identifiability.parts import Exponents, Formula, monomial
 from disting.questions.identifiability.tangent import (
     Tangent,

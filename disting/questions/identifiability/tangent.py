@@ -21,7 +21,7 @@ from disting.algebra.certainty import about, prime, residues
 from disting.algebra.quotient import matrix, rational
 from disting.behaviour.chain_model import ChainModel, powers
 from disting.behaviour.sample import DrawnPoint, Representation, at_point, draw_point, seen_at
-from disting.model.structure import Structure
+from disting.model.chain import Structure
 from disting.questions.identifiability.parts import Formula
 
 COEFFICIENT_LIMIT = 60  # larger numbers are artefacts of the reconstruction, or not readable

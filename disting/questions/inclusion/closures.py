@@ -40,9 +40,8 @@ from disting.fibres.ideals.splits import (
     receptances,
     splits,
 )
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Sensor, Structure
 from disting.model.row import FREE, canonical_rows
-from disting.model.structure import Structure
 from disting.questions.inclusion.row_closures import (
     Proof,
     Task,

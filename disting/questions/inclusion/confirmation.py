@@ -27,10 +27,9 @@ from disting.evidence.limits import (
     TooLarge,
 )
 from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalise
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Sensor, Structure
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
-from disting.model.structure import Structure
 from disting.questions.inclusion.across_sizes import (
     ChainSide,
     degrees_of,

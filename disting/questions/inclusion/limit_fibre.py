@@ -20,10 +20,9 @@ from disting.algebra.certainty import LEAST_SAFETY
 from disting.behaviour.chain_model import powers
 from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals import Decision, Limits, coefficient_map, decide, holds_for
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Damper, Element, Mass, Ports, Sensor, Spring, Structure
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
-from disting.model.structure import Damper, Element, Mass, Ports, Spring, Structure
 from disting.questions.inclusion.limits import Step, follows, least_rank, most_rank, reach
 
 LIMITS = Limits(seconds=60.0, entries=30_000, safety=104)  # of the ideal of one fibre

@@ -45,8 +45,8 @@ from disting.algebra.symbols import Polynomial, coefficients, symbols
 from disting.behaviour.chain_model import ChainModel, Powers, powers
 from disting.behaviour.sample import Representation, draw_point, seen_at
 from disting.behaviour.transfer import plain_receptance
+from disting.model.chain import Damper, Element, GroundDamper, Mass, Spring, Structure
 from disting.model.row import Row, rows_of
-from disting.model.structure import Damper, Element, GroundDamper, Mass, Spring, Structure
 
 POINTS = 2  # at which a rank is looked at; what is seen at one is a lower bound
 COUNTS = 4096

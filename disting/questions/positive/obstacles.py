@@ -51,9 +51,8 @@ from flint import acb, ctx
 from disting.fibres.synthesis.branch import Ball, Imprecise, roots, shift
 from disting.fibres.synthesis.fibre import PRECISIONS
 from disting.fibres.synthesis.task import Point, Target, target
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Ports
 from disting.model.row import Row, rows_of
-from disting.model.structure import Ports
 from disting.model.symmetry import canonical
 
 

@@ -25,10 +25,9 @@ from disting.fibres.ideals import (
 )
 from disting.fibres.synthesis.decide import Direction, member_at
 from disting.fibres.synthesis.task import fraction
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Structure
 from disting.model.minors import embeddings
 from disting.model.question import Settings
-from disting.model.structure import Structure
 from disting.model.symmetry import between, canonical
 from disting.questions.identifiability.analysis import identifiability
 from disting.questions.positive import confirms_real, proves

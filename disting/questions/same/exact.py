@@ -65,9 +65,8 @@ from disting.fibres.ideals import (
 from disting.fibres.ideals.full_rows import same_by_full_rows
 from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
 from disting.fibres.synthesis.theorems import are_dual, are_foster, are_same_by_rows
-from disting.model.chain import Chain
+from disting.model.chain import Chain, Structure
 from disting.model.question import Membership, Settings
-from disting.model.structure import Structure
 from disting.model.symmetry import canonical
 
 # wanted of a fibre: with the ranks that it rests on, the bound may lose one bit

@@ -13,7 +13,7 @@ from disting.fit.results.selection import Confidence
 from disting.fit.search.network_plant import network_plant
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 from disting.statistics.practical import standard_errors
 from disting.statistics.scatter import Scatter
 

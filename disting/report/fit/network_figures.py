@@ -14,7 +14,7 @@ from disting.fit.judge.members import QUANTILE
 from disting.fit.results.networks import NetworkSelection
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
-from disting.model.structure import Sort
+from disting.model.chain import Sort
 from disting.report.fit.network_curves import NetworkLine, network_line, scatters_of
 from disting.report.fit.series import BAND, Series, band, bars, points
 from disting.report.fit.style import (

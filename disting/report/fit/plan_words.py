@@ -8,8 +8,7 @@ import numpy as np
 
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.search.candidates import reference
-from disting.model.chain import Chain, text_drawing
-from disting.model.structure import Sort
+from disting.model.chain import Chain, Sort, text_drawing
 from disting.planning.fit_file import FitRecord, NamedNetworks
 from disting.planning.power import POWER, Answer, Plan, is_trusted, typical
 from disting.planning.rival import AnyStructure, Limit, Rival, name_of

@@ -10,8 +10,7 @@ from disting.fit.search.cost import Case
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.units import unit_as
-from disting.model.chain import Chain, Sensor
-from disting.model.structure import Damper
+from disting.model.chain import Chain, Damper, Sensor
 from disting.report.words import plural
 
 NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing

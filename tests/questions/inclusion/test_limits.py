@@ -6,8 +6,8 @@ import pytest
 import sympy as sp
 
 from disting import Chain, Family
+from disting.model.chain import Spring
 from disting.model.row import FREE, GROUNDED, Row, canonical_rows
-from disting.model.structure import Spring
 from disting.questions.inclusion.limits import (
     INFINITE,
     ZERO,

@@ -1,46 +1,62 @@
-"""Each kind of object as tables and sentences of a notebook.
+"""What a notebook shows of an object: a drawing, a table, a plot with matplotlib on given axes or
+on a new figure; and a chain as formulas or numbers. Lists of models and networks have tables too:
+candidates before a fit, what is the same, which explain a measurement.
 
-Lists of models and networks have tables too: candidates before a fit, what is the same, which
-explain a measurement. Each piece of HTML is complete in itself, without a style sheet, in the
-notebook's own colours wherever a colour means nothing.
+The rooms below ask for it as `disting.model.presentation.Presenter`, which `Notebook` is. Each
+piece of HTML is complete in itself, without a style sheet, in the notebook's own colours wherever a
+colour means nothing.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import singledispatch
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from markupsafe import Markup, escape
 
+from disting.algebra.symbols import Expr
+from disting.behaviour.transfer import transfer_function
 from disting.catalogs import Catalog
 from disting.catalogs.sizes import SizesCatalog
 from disting.conditions.inclusion import Inclusion
 from disting.equivalence import Equivalents
 from disting.equivalence.duplicates import Duplicate, Gate
+from disting.errors import DistingError
 from disting.evidence.positive import PositiveFinding
+from disting.export import state_space, to_control
 from disting.fit import Candidate, Selection
 from disting.fit.judge.explanation import Level
 from disting.fit.results.networks import NetworkSelection
+from disting.fit.results.selection import response_of
 from disting.fit.search.candidates import reference
+from disting.fit.search.data import check_range
 from disting.general import GlobalIdentifiability, MatrixModel, Model, ModelList
 from disting.measurement import FrequencyResponse, Look
 from disting.measurement.arrays import Real
 from disting.measurement.look_text import fact_rows
+from disting.model.chain import Chain, StateSpace
 from disting.model.family import Family
+from disting.network.network import Network
 from disting.planning.power import Plan, is_trusted
 from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance
 from disting.report.fit.sentences import quantity_rows
 from disting.report.fit.words import name, readable, response_unit, typeset
+from disting.report.network_drawing import network_svg
 from disting.report.scene import FILE_PALETTE, Ink, Layer, Path, Scene, svg
 from disting.report.words import SAID, headline, plural, raise_exponents, title
+from disting.simulation.mechanics import check_values, frequency_response
+from disting.statistics.scatter import scatter
 from disting.verdict.decisions import Decisions
 from disting.verdict.meaning import meaning_sentence as measured
 from disting.verdict.model_equivalents import ModelEquivalent
 from disting.verdict.next_experiments import Menu
 from disting.verdict.next_words import AnyMenu, anywhere, conclusion
 from disting.verdict.result import Relation, Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 WIDTH, HEIGHT, EDGE = 280.0, 90.0, 6.0
 MOST = 400  # points
@@ -461,3 +477,143 @@ def _networks(shown: NetworkSelection) -> str:
         table(["network", "chi2 per line", "excluded by"], rows[:LONGEST]),
         more(len(rows), "networks", "fits has all."),
     )
+
+
+Style = Mapping[str, Any]
+POINTS = 600  # of a model's line
+MOST_LINES = 5  # structures that are drawn of a selection
+MOST_NAMED = 30  # models whose numbers have room beside a matrix
+
+
+@singledispatch
+def drawn_on(shown: Any, ax: Any, style: Style) -> Any:
+    """The object on axes, which are returned; raises TypeError for a kind that is not known."""
+    raise TypeError(f"there is no plot of {type(shown).__name__}")
+
+
+@drawn_on.register(FrequencyResponse)
+def _plot_response(shown: FrequencyResponse, ax: Any, style: Style) -> "tuple[Axes, ...]":
+    panels = _panels(ax)
+    phase = np.unwrap(np.angle(shown.G))
+    _bode(panels, shown.frequency, np.abs(shown.G), phase, style)
+    unit = response_unit(shown)
+    panels[0].set_ylabel(f"Amplitude [{unit}]" if unit else f"{shown.sensor} per input")
+    if "label" in style:
+        panels[0].legend()
+    return panels
+
+
+@drawn_on.register(Selection)
+def _plot_selection(shown: Selection, ax: Any, style: Style) -> "tuple[Axes, ...]":
+    """Measured lines as dots, structures as lines, whose phases stay beside those of the dots."""
+    seen = shown.test
+    dots = {"linestyle": "none", "marker": ".", "color": "0.55", "label": "measured"}
+    panels = _plot_response(seen, ax, dots)
+    omega = np.geomspace(seen.omega[0], seen.omega[-1], POINTS)
+    chosen = [m.candidate for m in shown.members[:MOST_LINES]] or [shown.described]
+    beside = float(np.mean(np.unwrap(np.angle(seen.G))))
+    for candidate in chosen:
+        response = response_of(candidate, shown.task, omega)
+        phase = np.unwrap(np.angle(response))
+        phase += 2 * np.pi * np.round((beside - phase.mean()) / (2 * np.pi))
+        lines = {"label": reference(candidate.chain)}
+        _bode(panels, omega / (2 * np.pi), np.abs(response), phase, lines)
+    panels[0].legend()
+    return panels
+
+
+@drawn_on.register(Catalog)
+def _plot_catalog(shown: Catalog, ax: Any, style: Style) -> "Axes":
+    axes: Axes = _pyplot().subplots(figsize=(6, 6), layout="constrained")[1] if ax is None else ax
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    size, order = len(shown.family), list(Relation)
+    colours = {r: FILE_PALETTE[ground] for r, (ground, _, _) in FILLS.items()}
+    numbers = range(1, size + 1)
+    fields = np.ma.masked_equal(
+        [[-1 if i == j else order.index(shown.relation(i, j)) for j in numbers] for i in numbers],
+        -1,
+    )
+    palette = ListedColormap([colours[r] for r in order])
+    edges = (0.5, size + 0.5)
+    axes.imshow(fields, cmap=palette, vmin=0, vmax=len(order) - 1, extent=(*edges, *edges[::-1]))
+    if size <= MOST_NAMED:
+        axes.set_xticks(list(numbers))
+        axes.set_yticks(list(numbers))
+    axes.set_title(f"{title(shown)}: positive parameters")
+    relations = [r for r in order if (fields == order.index(r)).any()]
+    entries = [Patch(color=colours[r], label=SAID[r]) for r in relations]
+    axes.legend(handles=entries, loc="upper center", bbox_to_anchor=(0.5, -0.06), ncols=2)
+    return axes
+
+
+def _bode(panels: "Sequence[Axes]", hertz: Real, size: Real, phase: Real, style: Style) -> None:
+    panels[0].loglog(hertz, size, **style)
+    for panel in panels[1:2]:
+        panel.semilogx(hertz, np.degrees(phase), **style)
+        panel.set_ylabel("Phase [degree]")
+    for panel in panels:
+        panel.grid(True, linewidth=0.5, alpha=0.5)
+    panels[-1].set_xlabel("Frequency [Hz]")
+
+
+def _panels(ax: Any) -> "tuple[Axes, ...]":
+    """Amplitude and phase of a new figure, or what is given: one axes, or two in any sequence."""
+    if ax is None:
+        figure = _pyplot().figure(figsize=(7, 5), layout="constrained")
+        return tuple(figure.subplots(2, 1, sharex=True, height_ratios=[3, 2]))
+    parts = tuple(np.ravel(np.asarray(ax, dtype=object)))
+    if len(parts) not in (1, 2):
+        raise DistingError(f"a Bode diagram has one or two axes, not {len(parts)}")
+    return parts
+
+
+def _pyplot() -> Any:
+    try:
+        from matplotlib import pyplot
+    except ImportError:
+        raise DistingError("a plot needs matplotlib; install it: pip install matplotlib") from None
+    return pyplot
+
+
+class Notebook:
+    """Draws what a notebook asks for; it keeps nothing."""
+
+    def html(self, shown: Any, /) -> str:
+        """The object as a piece of an HTML page; raises TypeError for what has none."""
+        return table_of(shown)
+
+    def svg(self, shown: Chain | Network, /) -> str:
+        """The drawing of a chain or a network on white paper, which is right in light and dark
+        notebooks.
+        """
+        return chain_svg(shown) if isinstance(shown, Chain) else network_svg(shown)
+
+    def transfer_function(self, shown: Chain, /) -> Expr:
+        """G(s) from force to sensor."""
+        return transfer_function(shown)
+
+    def frequency_response(self, shown: Chain, values: Mapping[str, float], omega: Any, /) -> Any:
+        """G(j omega) with numbers."""
+        return frequency_response(shown, values, np.asarray(omega, dtype=float))
+
+    def state_space(self, shown: Chain, values: Mapping[str, float], /) -> StateSpace:
+        """The matrices with numbers."""
+        return state_space(shown, check_values(shown, values))
+
+    def to_control(self, shown: Chain, values: Mapping[str, float], /) -> Any:
+        """The same for python-control."""
+        return to_control(shown, check_values(shown, values))
+
+    def scatter(self, shown: FrequencyResponse, /) -> tuple[float, str]:
+        """Median over the lines of sigma / (|G| sqrt 2), and the source that it is known from.
+        Raises InputError for numbers that a fit does not compute with.
+        """
+        check_range(shown)
+        known = scatter(shown)
+        return known.typical, known.source
+
+    def plot(self, shown: Any, ax: Any, style: Mapping[str, Any], /) -> Any:
+        """The object on axes of matplotlib; raises TypeError for what has no plot."""
+        return drawn_on(shown, ax, style)
