@@ -17,7 +17,7 @@ from disting.cli.fit_data import (
     sensors,
     settings_of,
 )
-from disting.cli.output import emit
+from disting.cli.output import complain, emit
 from disting.cli.terminal_plot import bode_lines, nyquist_lines, signs_of
 from disting.errors import InputError, printable
 from disting.files import json_text
@@ -43,7 +43,8 @@ class View:
 def run(options: argparse.Namespace) -> int:
     """Read, print and write."""
     check_source(options, "look")
-    views = list(_views(options))
+    unread = list[str]()
+    views = list(_views(options, unread))
     if options.json:
         emit(options.json, f"{json_text(_plain(views), indent=1)}\n")
     if options.json != "-":
@@ -53,12 +54,15 @@ def run(options: argparse.Namespace) -> int:
         pages = list(_write(views, options.out))
         if options.json != "-":
             print(f"\nwritten to {options.out}; open {', '.join(map(str, pages))}")
-    return 0
+    for reason in unread:
+        complain(reason)
+    return 2 if unread else 0
 
 
-def _views(options: argparse.Namespace) -> Iterator[View]:
+def _views(options: argparse.Namespace, unread: list[str]) -> Iterator[View]:
     """Every response that a fit with these options reads: of all sensors, then of all experiments.
-    Files without a place for each are shown one by one.
+    Files without a place for each are shown one by one; of those that cannot be read the reasons
+    are added to `unread`, unless none can be read, which raises InputError.
     """
     if options.demo:
         from disting.simulation import demo
@@ -68,7 +72,12 @@ def _views(options: argparse.Namespace) -> Iterator[View]:
     places = sensors(options)
     if len(options.train) > 1 and len(places) == 1:
         for k, file in enumerate(options.train, 1):
-            yield View(f"file {k}", _seen(file, options))
+            try:
+                yield View(f"file {k}", _seen(file, options))
+            except InputError as reason:
+                unread.append(str(reason))
+        if len(unread) == len(options.train):
+            raise InputError(unread.pop(0))
     else:
         yield from _at_sensors(options, places)
     for text in options.experiment:

@@ -132,6 +132,16 @@ def test_files_without_places_are_shown_one_by_one(bode, two):
     assert [(x["place"], x["file"]) for x in plain["further"]] == [("file 2", "two.csv")]
 
 
+def test_a_file_that_is_not_read_hides_no_other(bode, tmp_path):
+    other = tmp_path / "other.csv"
+    other.write_text("no table\n")
+    done = called("look", other, bode)
+    assert done.returncode == 2 and "file 2:" in done.stdout and "19 lines" in done.stdout
+    assert done.stderr.startswith("disting: ") and "other.csv" in done.stderr
+    alone = called("look", other, other)
+    assert alone.returncode == 2 and alone.stdout == "" and "other.csv" in alone.stderr
+
+
 def test_a_sensor_without_a_response_is_shown_with_the_reason(two):
     plain = json.loads(called("look", two, "--sensor", "1,2,3", "--json", "-").stdout)
     first, last = plain, plain["further"][-1]
