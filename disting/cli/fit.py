@@ -18,7 +18,7 @@ from disting.cli.workers import Work, announce, cores, engine_for
 from disting.errors import InputError, enumeration, printable
 from disting.files import json_text, write_whole
 from disting.fit.judge.admissible import Rule
-from disting.fit.judge.reading import read_in_words
+from disting.fit.judge.readings import read_in_words
 from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports, on_elastic_bases, whole_family

@@ -141,8 +141,7 @@ if TYPE_CHECKING:
         poles as poles,
         zeros as zeros,
     )
-    from disting.fit.judge.quantity import QuantityReading as QuantityReading
-    from disting.fit.judge.readings import Reading as Reading
+    from disting.fit.judge.readings import QuantityReading as QuantityReading, Reading as Reading
     from disting.fit.results.loop import (
         Controller as Controller,
         Margins as Margins,

@@ -21,8 +21,13 @@ from disting.errors import InputError
 from disting.evidence.limits import Minor
 from disting.fit.judge.exclusion import CLEARLY, basis_of, limit, statistic
 from disting.fit.judge.explanation import Level, explain, merge, needed_lines, noises, scatters
-from disting.fit.judge.network_intervals import deviations, network_intervals
-from disting.fit.judge.network_twins import NetworkTwin, twin_at, without_noise
+from disting.fit.judge.network_intervals import (
+    NetworkTwin,
+    deviations,
+    network_intervals,
+    twin_at,
+    without_noise,
+)
 from disting.fit.results.networks import FittedNetwork, NetworkSelection
 from disting.fit.search.containment import limit_of
 from disting.fit.search.cost import Case, Cost, comparable

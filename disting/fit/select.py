@@ -19,7 +19,14 @@ from disting.fit.judge.alternatives import (
     representatives,
 )
 from disting.fit.judge.candidate import FOLDS, Candidate, Scatters, judge, observed_scatters
-from disting.fit.judge.choice import Choice, choice, judged, with_akaike_weights
+from disting.fit.judge.choice import (
+    Choice,
+    check_left,
+    choice,
+    judged,
+    searched_again,
+    with_akaike_weights,
+)
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.joint_verdicts import (
     alternatives_under_all,
@@ -27,11 +34,9 @@ from disting.fit.judge.joint_verdicts import (
     locate,
     representatives_under_all,
 )
-from disting.fit.judge.larger import check_left, searched_again
 from disting.fit.judge.members import Member, members
 from disting.fit.judge.outside import Outside, machines_outside
-from disting.fit.judge.quantity import quantity_readings
-from disting.fit.judge.readings import Reading, better_sign, pilot, readings
+from disting.fit.judge.readings import Reading, better_sign, pilot, quantity_readings, readings
 from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import statements
 from disting.fit.results.selection import Selection

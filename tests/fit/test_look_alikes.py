@@ -21,7 +21,7 @@ from disting.fit.judge.alternatives import alternatives, representatives
 from disting.fit.judge.look_alikes import LookAlikeKind, base_is_the_same, look_alikes
 from disting.fit.judge.members import twins
 from disting.fit.judge.modes import physical
-from disting.fit.judge.near_base import near_bases
+from disting.fit.judge.outside import near_bases
 from disting.fit.search.candidates import on_elastic_bases
 from disting.fit.search.plant import Plant
 from disting.fit.select import select

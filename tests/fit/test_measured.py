@@ -12,7 +12,7 @@ from jsonschema import validate
 from disting import InputError
 from disting.files import Format, schema
 from disting.fit import Case, FurtherResponse, Setup, read_model, select
-from disting.fit.judge.reading import outside, read_in_words
+from disting.fit.judge.readings import outside, read_in_words
 from disting.fit.search.candidates import chosen_ports
 from disting.measurement import read
 from disting.model.chain import Chain

@@ -8,8 +8,18 @@ import pytest
 
 from disting.fit.judge.modes import oscillations, poles
 from disting.fit.results.loop import Controller, margins
-from disting.fit.results.reliance import BETWEEN, FAMILY, WITHIN, Kind, Statement, total_inertia
-from disting.fit.results.samples import ParameterSamples, draw_samples, draws, with_twins
+from disting.fit.results.reliance import (
+    BETWEEN,
+    FAMILY,
+    WITHIN,
+    Kind,
+    ParameterSamples,
+    Statement,
+    draw_samples,
+    draws,
+    total_inertia,
+    with_twins,
+)
 from disting.fit.search.plant import Plant
 from disting.fit.select import select
 from disting.model.chain import Chain

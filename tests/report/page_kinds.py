@@ -14,7 +14,7 @@ from disting.catalogs.sizes import SizesCatalog, sizes_catalog
 from disting.cli import main
 from disting.cli.run import parser
 from disting.cli.verdicts import list_of
-from disting.fit.judge.quantity import QuantityReading
+from disting.fit.judge.readings import QuantityReading
 from disting.fit.networks import fit_networks
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import figure_1

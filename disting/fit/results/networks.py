@@ -8,7 +8,7 @@ from disting.errors import enumeration
 from disting.files import Format
 from disting.fit.judge.explanation import FEW_CLEAR, Miss
 from disting.fit.judge.interval import Interval
-from disting.fit.judge.network_twins import NetworkTwin, intervals_to_dict
+from disting.fit.judge.network_intervals import NetworkTwin, intervals_to_dict
 from disting.fit.search.cost import comparable
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real

@@ -26,8 +26,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import Explanation
 from disting.fit.judge.members import Member
 from disting.fit.judge.outside import Outside
-from disting.fit.judge.quantity import QuantityReading, question
-from disting.fit.judge.readings import Reading
+from disting.fit.judge.readings import QuantityReading, Reading, question
 from disting.fit.results.loop import Controller
 from disting.fit.results.reliance import Statement
 from disting.fit.search.candidates import reference

@@ -12,7 +12,7 @@ from disting.fit.judge.admissible import FROM_ZERO, KNOWN, UNDETERMINED
 from disting.fit.judge.explanation import Level, correlations, partners
 from disting.fit.judge.members import Disagreement
 from disting.fit.judge.modes import between_lines
-from disting.fit.judge.reading import bad_lines
+from disting.fit.judge.readings import bad_lines
 from disting.fit.results.selection import Selection, response_of
 from disting.fit.search.candidates import reference
 from disting.fit.search.joint import AnyCost

@@ -12,8 +12,7 @@ from scipy.stats import chi2
 from disting.fit.judge.members import Member
 from disting.fit.judge.modes import oscillations, poles, zeros
 from disting.fit.results.loop import loop_gain
-from disting.fit.results.reliance import nearest, position_of_load
-from disting.fit.results.samples import draws
+from disting.fit.results.reliance import draws, nearest, position_of_load
 from disting.fit.results.selection import Selection, response_of
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real

@@ -16,8 +16,7 @@ from disting.fit.judge.look_alikes import (
     is_on_base,
     look_alikes,
 )
-from disting.fit.judge.near_base import near_bases
-from disting.fit.judge.outside import Outside
+from disting.fit.judge.outside import Outside, near_bases
 from disting.fit.results.selection import Selection
 from disting.fit.search.joint import JointCost
 from disting.report.fit.mechanics_words import with_or

@@ -14,8 +14,8 @@ from markupsafe import Markup
 from disting.errors import enumeration
 from disting.files import __version__, json_text, write_whole
 from disting.fit.judge.exclusion import LEVEL
-from disting.fit.judge.network_twins import NetworkTwin
-from disting.fit.judge.reading import read_in_words
+from disting.fit.judge.network_intervals import NetworkTwin
+from disting.fit.judge.readings import read_in_words
 from disting.fit.results.networks import BAR, FittedNetwork, NetworkSelection
 from disting.report.environment import render
 from disting.report.fit.links import Site, Step, folders_near

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import inf
 
 from disting.fit.judge.interval import Interval
-from disting.fit.judge.network_twins import NetworkTwin
+from disting.fit.judge.network_intervals import NetworkTwin
 from disting.fit.results.networks import BAR, FittedNetwork
 from disting.model.chain import Sort
 from disting.network.network import Network

@@ -11,7 +11,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import STATUS, Explanation, explanations
 from disting.fit.judge.mechanics import Folded, fold
 from disting.fit.judge.members import Member
-from disting.fit.judge.quantity import QuantityReading
+from disting.fit.judge.readings import QuantityReading
 from disting.fit.results.reliance import Statement
 from disting.fit.results.selection import Selection, fit_percent
 from disting.fit.search.candidates import listed_form, reference

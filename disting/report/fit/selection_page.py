@@ -10,7 +10,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.judge.explanation import largest_cost, noise_limit
 from disting.fit.judge.modes import Result, physical
-from disting.fit.judge.reading import read_in_words
+from disting.fit.judge.readings import read_in_words
 from disting.fit.results.selection import Selection
 from disting.measurement import FrequencyResponse
 from disting.report.environment import render

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from disting.fit.judge.explanation import BESIDE, Explanation, Level, noise_limit
 from disting.fit.judge.held import held
 from disting.fit.judge.mechanics import actuator, fold, mechanics
-from disting.fit.judge.reading import outside
+from disting.fit.judge.readings import outside
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import reference
 from disting.report.fit.doubts import (
