@@ -82,8 +82,8 @@ if TYPE_CHECKING:
     from disting.algebra.certainty import Certainty as Certainty
     from disting.behaviour.transfer import transfer_function as transfer_function
     from disting.catalogs import Catalog as Catalog, ModelRow as ModelRow, catalog as catalog
-    from disting.conditions.finding import Finding as Finding, Outcome as Outcome
     from disting.conditions.inclusion import Inclusion as Inclusion
+    from disting.conditions.rule import Finding as Finding, Outcome as Outcome
     from disting.conditions.table import CONDITIONS as CONDITIONS
     from disting.equivalence import (
         equivalents as equivalents,
@@ -107,8 +107,7 @@ if TYPE_CHECKING:
         global_identifiability as global_identifiability,
     )
     from disting.general.identifiability import local_identifiability as local_identifiability
-    from disting.general.matrix_model import MatrixModel as MatrixModel
-    from disting.general.model import Model as Model
+    from disting.general.matrix_model import MatrixModel as MatrixModel, Model as Model
     from disting.general.model_files import (
         ModelList as ModelList,
         read_models as read_models,
@@ -118,8 +117,7 @@ if TYPE_CHECKING:
     from disting.model.family import Family as Family
     from disting.model.question import Domain as Domain, Settings as Settings
     from disting.model.symmetry import Symmetry as Symmetry
-    from disting.network.element import Element as Element, Port as Port
-    from disting.network.network import Network as Network
+    from disting.network.network import Element as Element, Network as Network, Port as Port
     from disting.network.notation import network_of as network_of, values_in as values_in
     from disting.quantities import Sensor as Sensor
     from disting.questions.identifiability.answer import Identifiability as Identifiability
@@ -140,8 +138,13 @@ if TYPE_CHECKING:
         compare_everywhere as compare_everywhere,
         everywhere_file as everywhere_file,
     )
-    from disting.verdict.query import Query as Query, View as View
-    from disting.verdict.result import Relation as Relation, Step as Step, Verdict as Verdict
+    from disting.verdict.result import (
+        Query as Query,
+        Relation as Relation,
+        Step as Step,
+        Verdict as Verdict,
+        View as View,
+    )
     from disting.verdict.verdict_file import verdict_file as verdict_file
     from disting.verdict.verification import Verification as Verification, verify as verify
 

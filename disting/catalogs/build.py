@@ -24,9 +24,8 @@ from disting.catalogs.files import (
     read_findings,
     write_provenance,
 )
-from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import inclusions_to_dict
-from disting.conditions.rule import Stage
+from disting.conditions.rule import Finding, Outcome, Stage
 from disting.conditions.side import AnySide
 from disting.errors import CatalogError
 from disting.evidence.general import without_digits
@@ -46,8 +45,7 @@ from disting.verdict.claim_checks import false_of_inclusions
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, map_tasks, silent
 from disting.verdict.forest import Forest
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 PARTS = {"tf": View.TF, "markov": View.MARKOV, "structure": View.COMBINED, Stage.FIBRE: View.EXACT}
 # what holds over positive parameters follows from the shares of both sides

@@ -25,8 +25,7 @@ from disting.model.chain import Chain, Indices, Sensor
 from disting.model.names import name_of
 from disting.model.presentation import plural, summary
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 if TYPE_CHECKING:  # a matrix that is looked up needs nothing of what decides
     from disting.verdict.decisions import Decisions

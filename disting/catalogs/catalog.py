@@ -28,9 +28,8 @@ from disting.catalogs.files import (
     read_records,
     shipped_folder,
 )
-from disting.conditions.finding import NOT_REAL, Finding, positive_ways
 from disting.conditions.inclusion import Inclusion, Inclusions, inclusions_from_dict
-from disting.conditions.rule import RULES, Stage
+from disting.conditions.rule import NOT_REAL, RULES, Finding, Stage, positive_ways
 from disting.errors import CatalogError, ContradictionError, InputError, of_type
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
@@ -41,8 +40,7 @@ from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Domain
 from disting.questions.identifiability.answer import Identifiability
 from disting.verdict.forest import classes_of
-from disting.verdict.query import View
-from disting.verdict.result import PROVES, Relation, Step, Verdict, open_note
+from disting.verdict.result import PROVES, Relation, Step, Verdict, View, open_note
 
 if TYPE_CHECKING:
     import pandas as pd

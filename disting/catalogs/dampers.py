@@ -36,8 +36,7 @@ from disting.catalogs.files import (
     shipped_folder,
     write_provenance,
 )
-from disting.conditions.finding import WRITTEN
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, WRITTEN
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain
@@ -51,8 +50,7 @@ from disting.verdict.classes import Classes
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.forest import classes_of
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 
 Masses = tuple[int, ...]
 COLUMNS = ("left", "right", "relation", "decided_by", "domain", "damped", "quantity")

@@ -27,7 +27,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any, overload
 
-from disting.conditions.finding import Finding
+from disting.conditions.rule import Finding
 from disting.errors import CatalogError
 from disting.files import (
     PROVENANCE as PROVENANCE,

@@ -21,8 +21,7 @@ from itertools import chain, combinations, groupby
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
-from disting.conditions.finding import Finding
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding
 from disting.errors import CatalogError
 from disting.evidence.kind import Labels
 from disting.files import intact_text, shipped_folder
@@ -38,8 +37,7 @@ from disting.network.families import FAMILIES, NetworkFamily, family_of
 from disting.network.simplest import same_drawing
 from disting.verdict.decisions import Decisions, Pair
 from disting.verdict.engine import Engine, Progress, question_key, silent
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 MOST = 9  # parameters of networks whose parts are looked at
 

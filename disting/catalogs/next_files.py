@@ -34,7 +34,7 @@ from disting.verdict.buckets import NOT_KNOWN
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.next_experiments import Menu, menu_for
 from disting.verdict.placement_record import TESTS, Placement, SpotClasses
-from disting.verdict.query import View
+from disting.verdict.result import View
 
 SCHEMA = 1
 SHIPPED_SIZES = (2, 3, 4, 5)

@@ -48,8 +48,7 @@ from disting.questions.same.real_and_positive import POSITIVELY
 from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 
 
 def combined_family(

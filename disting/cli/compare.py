@@ -30,8 +30,7 @@ from disting.model.chain import Chain, Sensor, text_drawing
 from disting.model.names import NAME, name_of, names_of, read, read_together
 from disting.model.question import Domain
 from disting.verdict.meaning import RESPONSE, meaning_sentence, undetermined_sentence
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 
 Known = tuple[str, int, int]
 """The name of a model, how much of it is determined, how many parameters it has."""

@@ -31,8 +31,7 @@ from disting.verdict.placement_verdicts import (
     compare_everywhere,
     everywhere_file,
 )
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 from disting.verdict.sides import determinable, names_beside
 from disting.verdict.verdict_file import StoredVerdict, as_file, exact, has_more
 

@@ -11,7 +11,7 @@ from disting.cli.arguments import split_reference
 from disting.cli.model_names import stated_values
 from disting.cli.output import emit, keep_apart
 from disting.cli.workers import engine_for
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.equivalence.closed_forms import closed_forms
 from disting.errors import InputError
 from disting.files import Format, json_text

@@ -40,8 +40,7 @@ from disting.verdict.next_words import (
     rows,
     to_dict,
 )
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 Named = tuple[str, Chain]
 Table = Iterable[Sequence[str]]

@@ -13,8 +13,7 @@ from collections.abc import Iterable
 from disting.conditions.rule import RULES
 from disting.errors import InputError
 from disting.model.question import Domain
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 # bright enough on a dark ground, dark enough on a light one
 COLOURS = {

@@ -21,7 +21,7 @@ from disting.errors import InputError
 from disting.files import write_whole
 from disting.general.model_files import ModelList
 from disting.verdict.engine import Engine, Progress
-from disting.verdict.query import Query, View
+from disting.verdict.result import Query, View
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -23,7 +23,7 @@ from disting.errors import InputError, short
 from disting.model.family import Family
 from disting.store import Store
 from disting.verdict.engine import Engine, Progress
-from disting.verdict.query import Query
+from disting.verdict.result import Query
 
 LONG = 60.0  # seconds that nobody needs to be told of
 PATIENCE = 5.0  # seconds that one pair may take without a word

@@ -11,8 +11,16 @@ from disting.algebra.certainty import Certainty, Grade, grade_of
 from disting.algebra.matroid import Matroid, rank_in, separating_rows
 from disting.behaviour.profile import NoMatroid, Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import DEGREES, DEPENDENCES, FORM, INVARIANTS, RANK, Rule
+from disting.conditions.rule import (
+    DEGREES,
+    DEPENDENCES,
+    FORM,
+    INVARIANTS,
+    RANK,
+    Finding,
+    Outcome,
+    Rule,
+)
 from disting.evidence.conditions import Counts, Forms, Ranks
 from disting.evidence.kinds import Evidence
 

@@ -12,8 +12,8 @@ from disting.algebra.certainty import full_text, prime
 from disting.algebra.colouring import Colouring, colouring
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, positive_ways
 from disting.conditions.inclusion import Inclusions
+from disting.conditions.rule import Finding, positive_ways
 from disting.evidence.conditions import Renaming
 from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import PositiveFinding

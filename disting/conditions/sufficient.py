@@ -14,8 +14,7 @@ from disting.algebra.colouring import renamings
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import FREE_CHOICE, RENAMING, SUBMODEL, SUPERMODEL
+from disting.conditions.rule import FREE_CHOICE, RENAMING, SUBMODEL, SUPERMODEL, Finding, Outcome
 from disting.conditions.side import AnySide
 from disting.evidence.conditions import Embedding, FreeChoice, Renaming, Supermodel
 

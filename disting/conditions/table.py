@@ -12,7 +12,6 @@ from disting.algebra.certainty import Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
 from disting.conditions import necessary, sufficient
-from disting.conditions.finding import Finding
 from disting.conditions.rule import (
     DEGREES,
     DEPENDENCES,
@@ -23,6 +22,7 @@ from disting.conditions.rule import (
     RENAMING,
     SUBMODEL,
     SUPERMODEL,
+    Finding,
     Rule,
 )
 from disting.conditions.side import AnySide

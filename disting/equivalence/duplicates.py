@@ -30,8 +30,7 @@ from disting.verdict.engine import Engine
 from disting.verdict.identifiable import Identified, identify
 from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import AnyMenu, to_dict
-from disting.verdict.query import Query
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict
 from disting.verdict.sides import Named, refuse_ports
 
 

@@ -56,8 +56,7 @@ from disting.algebra.certainty import (
     safety,
     weakest,
 )
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.decide import (
     SAME_MEASURED,
     SAME_MEASURED_QUICKLY,

@@ -29,8 +29,7 @@ from flint import acb_poly, ctx, fmpq, fmpq_poly
 
 from disting.algebra.certainty import Certainty, about
 from disting.behaviour.transfer import plain_receptance
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.evidence.decision import FibreUnder
 from disting.experiments.experiment import Entry, MeasuredChain
 from disting.fibres.synthesis.branch import Ball

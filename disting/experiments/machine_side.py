@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 from disting.algebra.certainty import weakest
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusions
-from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.conditions.rule import ADMISSIBLE, EXACT, Finding, Outcome
 from disting.conditions.side import Side
 from disting.decide import POSITIVE_MEASURED, SAME_MEASURED, found_at_once, recheck
 from disting.evidence.conditions import FreeChoice, Renaming

@@ -9,7 +9,7 @@ from functools import partial
 from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding
+from disting.conditions.rule import Finding
 from disting.decide import OF_INCLUSIONS, OF_VERDICTS, Of, check, deciders_of
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder

@@ -52,8 +52,7 @@ from disting.statistics.covariance import expected_deviation
 from disting.statistics.scatter import Scatter
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 STARTS, KEPT = 60, 6  # random starts of a network, and how many are searched on
 ITERATIONS = 40

@@ -60,8 +60,11 @@ if TYPE_CHECKING:
         local_identifiability as local_identifiability,
         parameter_identifiability as parameter_identifiability,
     )
-    from disting.general.matrix_model import AnyModel as AnyModel, MatrixModel as MatrixModel
-    from disting.general.model import Model as Model
+    from disting.general.matrix_model import (
+        AnyModel as AnyModel,
+        MatrixModel as MatrixModel,
+        Model as Model,
+    )
     from disting.general.model_evidence import confirms as confirms
     from disting.general.model_files import (
         ModelList as ModelList,

@@ -13,15 +13,13 @@ from functools import cached_property
 from itertools import islice
 
 from disting.algebra.certainty import Certainty
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
 from disting.decide import VALUES_POSITIVE, VALUES_REAL, first_finding
 from disting.errors import ContradictionError
 from disting.evidence.decision import ONE_PORTS, Theorem
 from disting.evidence.general import Explicit, Inequality, NoEquivalent, Witnesses
 from disting.general.formulas import explicit, fit
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.general.one_ports import same_one_ports
 from disting.general.orthant import THOROUGH, Effort
 from disting.general.which_models import Way, way

@@ -14,13 +14,12 @@ from fractions import Fraction
 from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.own_process import run_limited
 from disting.algebra.groebner.rational import Bounds, TooLarge
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.errors import InputError, of_type
 from disting.general.any_model import on_one_variable
 from disting.general.equivalent import Equivalent, rational
 from disting.general.fibre import Extent, Fibre, solve
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, MatrixModel, Model
 from disting.general.target import Target, joint_equations, rational_values, target
 from disting.model.presentation import plural, summary
 from disting.model.question import Domain

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar, overload
 
-from disting.conditions.finding import Finding
+from disting.conditions.rule import Finding
 from disting.decide import SAME_NETWORKS, first_finding
 from disting.fibres.ideals import (
     CoefficientMap,
@@ -20,8 +20,7 @@ from disting.fibres.ideals import (
     stacked_maps,
 )
 from disting.general.expansion import TooLargeError
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import AnyModel, MatrixModel, Model, Terms
 from disting.general.powers import Cell, Powers, in_v, out_of_v, separating_weights
 from disting.model.chain import Chain, Sort
 from disting.model.question import Settings

@@ -34,8 +34,7 @@ from disting.algebra.certainty import Size
 from disting.algebra.quotient import Quotient, lowest_terms
 from disting.behaviour.chain_model import UNBOUNDED, size_of_minors
 from disting.behaviour.sample import label, shared_poles
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import AnyModel, Model, Terms
 from disting.model.protocol import ZERO, Columns, Degrees
 
 KnownValue = Fraction | None

@@ -21,8 +21,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import combinations, islice
 
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import AnyModel, Model, Terms
 from disting.general.orthant import THOROUGH, Effort
 from disting.general.relations import coefficients, dimension_at_least, dimension_at_most
 from disting.general.which_models import Way, way

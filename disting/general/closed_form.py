@@ -31,8 +31,7 @@ from disting.algebra.symbols import (
 from disting.errors import ContradictionError
 from disting.general.any_model import on_one_variable
 from disting.general.field import Step, letters
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Terms
+from disting.general.matrix_model import AnyModel, Terms
 
 POINTS = 2
 DRAWS = 512  # of a point, until all discriminants are squares

@@ -27,7 +27,7 @@ from fractions import Fraction
 from itertools import combinations, product
 
 from disting.general.fibre_lists import is_in_one_variable, is_regular
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import Model, Terms
 from disting.general.target import Values, value_at
 
 MOST = 3000  # numbers that are looked for

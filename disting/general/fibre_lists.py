@@ -31,14 +31,11 @@ from disting.errors import InputError
 from disting.general.any_model import in_powers
 from disting.general.equivalent import Equivalent, sign_at
 from disting.general.fibre import Extent, solve, without_zeros
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
 from disting.general.target import Target, Values, fibre_equations, rational_values, target
 from disting.model.question import Domain
-from disting.network.element import Port
-from disting.network.graph import move, seen_by_blocks
-from disting.network.network import Network
+from disting.network.network import Network, Port, move, seen_by_blocks
 
 REMEMBERED = 512
 MOST_ELEMENTS = 6  # of a network of which all minors are looked at

@@ -16,8 +16,7 @@ from functools import lru_cache, partial
 from itertools import islice
 
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
 from disting.decide import POSITIVE_NETWORKS, first_finding
 from disting.errors import InputError
 from disting.evidence.decision import Theorem

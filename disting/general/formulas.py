@@ -10,8 +10,7 @@ from disting.general.boundary import Boundary, at_boundary, equivalents_without
 from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of, polynomial_text, text_of, tree
 from disting.general.intermediate_value import End, Path
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import AnyModel, Model, Terms
 from disting.general.orthant import BRIEF, THOROUGH, Effort
 from disting.general.sections import Section
 from disting.general.which_models import Way, ways_by_all

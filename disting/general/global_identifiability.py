@@ -84,7 +84,7 @@ def global_identifiability(
     """How many parameter vectors fit, and what is determined, from so many `tries` of orders in
     which unknowns are solved for. Raises InputError for what is no model.
 
-    >>> from disting.general.model import Model
+    >>> from disting.general.matrix_model import Model
     >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))
     >>> found.count, found.unique, found.combinations
     (2, ('c',), ('c', 'a*b', 'a + b'))

@@ -60,7 +60,7 @@ def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> Loc
     """Local identifiability of each parameter from the transfer functions. Raises InputError for
     what is no model.
 
-    >>> from disting.general.model import Model
+    >>> from disting.general.matrix_model import Model
     >>> m = Model.from_transfer_function(["k"], ["a*b", "c"])
     >>> local_identifiability(m).identifiable, local_identifiability(m).rank
     ((), 2)

@@ -29,7 +29,7 @@ from flint import Ordering, fmpq_mat, fmpz_mat, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.certainty import residues
 from disting.general.fibre_lists import is_regular
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.newton import are_alike
 from disting.general.relations import coefficients
 from disting.general.target import Values, value_at

@@ -36,12 +36,9 @@ from flint import fmpz_mpoly
 from disting.algebra.determinants import minors
 from disting.algebra.symbols import symbols
 from disting.evidence.decision import INTERLACING, REPLACEMENT
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.general.replacement import simplest_network
-from disting.network.element import Element
-from disting.network.graph import parts
-from disting.network.network import Network
+from disting.network.network import Element, Network, parts
 
 FEWEST = 3  # masses: of two, formulas are found, which say more
 Ring = dict[str, fmpz_mpoly]

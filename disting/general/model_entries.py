@@ -9,8 +9,7 @@ from disting.errors import InputError, enumeration, of_type, short
 from disting.files import unique_keys
 from disting.general.any_model import as_chain, of_network
 from disting.general.expression import polynomial_text
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, MatrixModel, Model
 from disting.general.naming import LARGEST_CHAIN
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family

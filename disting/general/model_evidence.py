@@ -7,8 +7,7 @@ from fractions import Fraction
 from functools import partial
 from math import isclose
 
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.decide import Of, check, deciders_of
 from disting.evidence.decision import Theorem
 from disting.evidence.general import (
@@ -28,8 +27,7 @@ from disting.general.combination import excludes
 from disting.general.equivalent import spell
 from disting.general.inequalities import excludes_around, is_contradiction
 from disting.general.interlacing import sets_of
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
 from disting.general.replacement import same_in_units

@@ -116,7 +116,7 @@ def write_models(path: Path | str, models: ModelList) -> Path:
     s, OSError where the file cannot be written.
 
     >>> from tempfile import TemporaryDirectory
-    >>> from disting.general.model import Model
+    >>> from disting.general.matrix_model import Model
     >>> lag = Model.from_transfer_function("k", "T*s + 1", name="lag")
     >>> with TemporaryDirectory() as folder:
     ...     read_models(write_models(Path(folder, "mine.json"), ModelList((lag,)))).models[0] == lag
@@ -128,7 +128,7 @@ def write_models(path: Path | str, models: ModelList) -> Path:
 def models_text(models: ModelList) -> str:
     """The text of a file, a line a model.
 
-    >>> from disting.general.model import Model
+    >>> from disting.general.matrix_model import Model
     >>> lag = Model.from_transfer_function(["k"], ["T", 1], name="lag")
     >>> print(models_text(ModelList((lag,))), end="")
     {"format": "disting models 1", "title": "", "models": [

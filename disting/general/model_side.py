@@ -12,9 +12,8 @@ from functools import cached_property
 
 from disting.algebra.certainty import Certainty, joint_safety
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusions
-from disting.conditions.rule import ADMISSIBLE, EXACT, Rule
+from disting.conditions.rule import ADMISSIBLE, EXACT, Finding, Outcome, Rule
 from disting.conditions.side import Ask, Side
 from disting.conditions.sufficient import condition_6
 from disting.decide import (

@@ -8,8 +8,7 @@ from collections.abc import Iterable
 
 from disting.errors import InputError
 from disting.general.any_model import of_network
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.model.chain import Chain
 from disting.network.denotation import Naming, compare_name, naming_of, refuse_misnamed
 from disting.network.network import Network

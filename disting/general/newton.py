@@ -35,8 +35,7 @@ from flint import arb, arb_mat, ctx, fmpq, fmpq_mat
 
 from disting.errors import InputError
 from disting.general.fibre_lists import is_in_one_variable
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import AnyModel, Model, Terms
 from disting.general.relations import Relation, coefficients, relations, slope
 from disting.general.search import values_near
 from disting.general.target import Values, rational_values, value_at

@@ -36,7 +36,7 @@ from flint import fmpz_mpoly
 from disting.algebra.symbols import RationalFunction, factorise
 from disting.general.cases import cases_of
 from disting.general.elimination import Case
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import Model, Terms
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.sections import cover, sections
 from disting.model.question import Domain

@@ -20,8 +20,7 @@ from typing import Any
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from disting.algebra.symbols import RationalFunction, factorise
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import AnyModel, Model, Terms
 from disting.model.question import Domain
 
 QUADRATIC = 2

@@ -7,8 +7,7 @@ exists, the same statement holds for all values, so it is the stronger one.
 
 from dataclasses import replace
 
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
 from disting.evidence.general import Explicit
 from disting.general.formulas import explicit, fit
 from disting.general.matrix_model import AnyModel

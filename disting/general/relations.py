@@ -14,7 +14,7 @@ from typing import Any
 from flint import fmpz_mpoly, nmod_mat
 
 from disting.algebra.certainty import prime, residues
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import Model, Terms
 
 REMEMBERED = 256
 MOST = 140  # products of two coefficients, and

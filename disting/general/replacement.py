@@ -45,13 +45,10 @@ from itertools import combinations, product
 
 from disting.errors import InputError
 from disting.general.fibre_lists import goal_of, one_less, orientation, positive
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.general.powers import placed_network
 from disting.general.target import Values
-from disting.network.element import Element, Port
-from disting.network.graph import move
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port, move
 from disting.network.normal_form import Part, Power, normal_form
 from disting.network.simplest import same_but_for_gears, simplest
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from disting.algebra.certainty import residues
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import Model, Terms
 from disting.general.relations import coefficients
 from disting.general.target import Values
 

@@ -95,7 +95,7 @@ class _Group:
 def find_solutions(model: AnyModel, settings: Settings) -> OverDomains:
     """The solutions over each domain, in the order of `Domain`.
 
-    >>> from disting.general.model import Model
+    >>> from disting.general.matrix_model import Model
     >>> model = Model.from_transfer_function("c", "(s + a)*(s + b)")
     >>> [(s.least, s.most, s.exchanges[0].text) for s in find_solutions(model, Settings())]
     [(2, 2, 'a ↔ b'), (2, 2, 'a ↔ b'), (2, 2, 'a ↔ b')]

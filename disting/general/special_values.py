@@ -24,8 +24,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.symbols import symbols
 from disting.errors import enumeration
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.network.exact import within
 
 REMEMBERED = 512

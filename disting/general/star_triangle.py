@@ -1,7 +1,7 @@
 """A star of three elements of one kind as a triangle, and a triangle as a star: bridges and loops
 become series and parallel.
 
-With p what each of them adds to P(s) (see `disting.network.element`), and each element of the star
+With p what each of them adds to P(s) (see `disting.network.network`), and each element of the star
 opposite to the one of the triangle that has its name,
 
     triangle from star: p_a' = p_b p_c / (p_a + p_b + p_c)
@@ -17,9 +17,7 @@ from itertools import combinations
 from typing import Any
 
 from disting.general.field import Arithmetic
-from disting.network.element import Element
-from disting.network.graph import join
-from disting.network.network import Network
+from disting.network.network import Element, Network, join
 
 THREE = 3
 

@@ -24,7 +24,7 @@ def symmetries_of(model: AnyModel) -> list[Permutation]:
     """All permutations of the parameters that keep the response, the identity first; the first
     `MOST` of them if there are more.
 
-    >>> from disting.general.model import Model
+    >>> from disting.general.matrix_model import Model
     >>> symmetries_of(Model.from_transfer_function("c", "(s + a)*(s + b)"))
     [(0, 1, 2), (1, 0, 2)]
     """

@@ -17,7 +17,7 @@ from math import prod
 from typing import Any, Protocol
 
 from disting.general.field import Arithmetic, Poly
-from disting.network.element import Element
+from disting.network.network import Element
 from disting.network.normal_form import Part, Power, dual, in_parallel, in_series
 
 Cut = list[tuple[int, ...]]

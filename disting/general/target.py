@@ -21,8 +21,7 @@ from disting.algebra.groebner.modular import Sparse
 from disting.errors import InputError, enumeration, short
 from disting.general.expansion import Expansion
 from disting.general.expression import names, tree
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import AnyModel, Model, Terms
 
 Values = dict[str, Fraction]
 

@@ -16,7 +16,7 @@ from itertools import product
 from typing import Any
 
 from disting.general.field import Arithmetic, Poly
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.synthesis import FieldValues, NoFormulas, share_terms
 from disting.network.network import Network
 

@@ -16,8 +16,7 @@ from typing import Any
 
 from disting.general.closed_form import ClosedForm
 from disting.general.field import Arithmetic, Field, Poly
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.general.orthant import TooMuch
 from disting.general.powers import placed_network
 from disting.general.replacement import set_of
@@ -32,10 +31,8 @@ from disting.general.synthesis import (
     synthesize,
 )
 from disting.general.values_of_compartments import values_of_tree
-from disting.network.element import Port
 from disting.network.gears import units, unknown_ratios, without_gears
-from disting.network.graph import join
-from disting.network.network import Network
+from disting.network.network import Network, Port, join
 from disting.network.normal_form import Power
 
 LETTERS = (12, 24, 48, 96, 192)  # of a value without a name: what is written shorter is kept

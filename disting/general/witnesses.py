@@ -21,8 +21,7 @@ from disting.general.combination import excludes, is_tried
 from disting.general.equivalent import spell
 from disting.general.fibre import Extent, solve
 from disting.general.inequalities import contradiction, points_against
-from disting.general.matrix_model import AnyModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, Model
 from disting.general.search import STARTS, common_points
 from disting.general.target import Values, fibre_equations
 from disting.model.question import Domain

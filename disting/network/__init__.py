@@ -12,8 +12,7 @@ from disting.lazy import TYPE_CHECKING, offer
 
 if TYPE_CHECKING:
     from disting.model.chain import Sort as Sort
-    from disting.network.element import Element as Element, Port as Port
-    from disting.network.network import Network as Network
+    from disting.network.network import Element as Element, Network as Network, Port as Port
     from disting.network.notation import network_of as network_of, values_in as values_in
 
 offer(__name__)

@@ -23,8 +23,7 @@ from itertools import islice
 from flint import nmod_mat, nmod_poly
 
 from disting.algebra.quotient import Quotient, lowest_terms
-from disting.network.element import Element
-from disting.network.network import Network
+from disting.network.network import Element, Network
 
 REMEMBERED = 1024  # assemblies
 Vector = tuple[tuple[int, int], ...]

@@ -13,9 +13,7 @@ from functools import lru_cache
 from itertools import combinations
 from math import comb
 
-from disting.network.element import Element
-from disting.network.graph import edges, join, parts
-from disting.network.network import Network
+from disting.network.network import Element, Network, edges, join, parts
 
 TRIED = 20_000  # ways to take elements away
 REMEMBERED = 512

@@ -7,8 +7,7 @@ from disting.errors import ConstraintViolation, InputError
 from disting.model.chain import Chain, Damper, GroundDamper, Mass, Sensor, Sort, Spring, Structure
 from disting.model.names import name_of
 from disting.model.presentation import AS_CHAIN
-from disting.network.element import Element, Port
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port
 
 
 def of_chain(chain: Chain, name: str = "network") -> Network:

@@ -16,9 +16,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.determinants import Minors, Times, minors
 from disting.errors import InputError
-from disting.network.element import Element, Port
-from disting.network.graph import edges, parts
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port, edges, parts
 
 Ring = Mapping[str, fmpz_mpoly]
 """Generators by name."""

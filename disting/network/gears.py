@@ -17,8 +17,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from disting.errors import InputError
-from disting.network.element import Element
-from disting.network.network import Network
+from disting.network.network import Element, Network
 
 Height = tuple[Fraction, tuple[int, ...]]
 """h_i: a number, times powers of the unknown ratios."""

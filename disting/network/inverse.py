@@ -11,8 +11,7 @@ what is true of one pair, of generic values or of all, is true of the other pair
 from collections import Counter
 
 from disting.model.chain import Sort
-from disting.network.element import Element
-from disting.network.network import Network
+from disting.network.network import Element, Network
 from disting.network.simplest import network_text
 
 TURNED = {

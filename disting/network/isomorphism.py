@@ -16,8 +16,7 @@ from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from disting.model.chain import Sort
-from disting.network.element import Element
-from disting.network.network import Network
+from disting.network.network import Element, Network
 
 MOST_TRIALS = 2_000  # vertices that are fixed; symmetric networks need one for each of their twins
 Vertex = tuple[object, ...]

@@ -35,9 +35,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from itertools import islice
 
-from disting.network.element import PHASE, Element
-from disting.network.graph import parts
-from disting.network.network import Network
+from disting.network.network import PHASE, Element, Network, parts
 
 Places = Mapping[int, int]
 SPECIAL = {"R": "0", "W": "1/2", "C": "1"}  # exponents with which a P is another element

@@ -4,20 +4,367 @@
 
 A machine shows motions per force, a circuit voltages per current, compartments contents per inflow.
 q counts the differentiations of the sensor.
+
+An element of value p connects nodes: it adds p s^r u v^T to the matrix P(s), where u and v say at
+which nodes it pulls and what it feels; of a resistor, an inductor and a Warburg element 1/p stands
+for p. The power r of a constant phase element is its exponent, a parameter that has a name.
+Node 0 is the ground (a reference node, the outside) and has no row. As a graph, nodes and elements
+show what is connected and what a port can see.
 """
 
+import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import lru_cache
 from math import lcm
+from typing import Any, TypeVar
 
 from disting.errors import InputError, short
 from disting.model.chain import Sort
 from disting.model.presentation import NotebookPicture, plural, summary
-from disting.network.element import Element, Port
-from disting.network.graph import edges, parts, renumber, seen_by_blocks, seen_by_flows
 from disting.quantities import refuse_improper
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of element: its letter, what it is called, and its term of P(s).
+
+    `halves`: 2 r, as the power of s is a half for a Warburg element; `divides`: 1/p enters;
+    `ends`: at how many nodes it sits.
+    """
+
+    letter: str
+    word: str
+    sort: Sort
+    halves: int
+    divides: bool = False
+    ends: int = 2
+
+
+_M, _C, _F = Sort
+KINDS = {
+    kind.letter: kind
+    for kind in (
+        Kind("m", "mass", _M, 4, ends=1),
+        Kind("j", "inerter", _M, 4),
+        Kind("d", "damper", _M, 2),
+        Kind("k", "spring", _M, 0),
+        Kind("R", "resistor", _C, 0, divides=True),
+        Kind("L", "inductor", _C, -2, divides=True),
+        Kind("C", "capacitor", _C, 2),
+        Kind("W", "Warburg element", _C, 1, divides=True),
+        Kind("P", "constant phase element", _C, 0),
+        Kind("a", "flow", _F, 0),
+        Kind("v", "compartment", _F, 2, ends=1),
+    )
+}
+
+
+PHASE = "P"  # the letter of a constant phase element, whose exponent is a parameter
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """One element: the name of its value (none of a compartment, whose contents are the state
+    itself), the letter of its kind, the nodes at its ends, the ratio of a gear, and the exponent of
+    a constant phase element.
+
+    Kinds are m mass, j inerter, d damper, k spring; R resistor, L inductor, C capacitor, W Warburg
+    element, P constant phase element; a flow, v compartment; the name of a value begins with the
+    letter of its kind (of a damper b too). Node 0 is the ground. Of two ends i and j with a ratio
+    g the element feels x_i - g x_j: g is the name of a parameter or a number such as "3/2". A flow
+    goes from its first node to its second one. The admittance of a constant phase element is p s^n:
+    n is the name of its exponent, n1 of P1 where none is given. Immutable and hashable. Raises
+    InputError.
+
+    >>> spring = Element("k12", "k", (1, 2), "3/2")
+    >>> spring.kind.word, spring.parameters, str(spring)
+    ('spring', ('k12',), 'k12 1 2 *3/2')
+    >>> Element("P1", "P", (1, 2)).exponent
+    'n1'
+    """
+
+    value: str
+    letter: str
+    nodes: tuple[int, ...]
+    ratio: str = ""
+    exponent: str = ""
+
+    def __post_init__(self) -> None:
+        if self.letter == PHASE and not self.exponent and isinstance(self.value, str):
+            object.__setattr__(self, "exponent", f"n{self.value[1:]}")
+        for problem in _problems_of_element(self):
+            raise InputError(problem)
+
+    @property
+    def kind(self) -> Kind:
+        """What it is."""
+        return KINDS[self.letter]
+
+    @property
+    def power(self) -> tuple[int, str]:
+        """Its power of s: 2 r, and the exponent that is added to r."""
+        return self.kind.halves, self.exponent
+
+    @property
+    def known_ratio(self) -> Fraction | None:
+        """The ratio where it is a number: 1 without a gear."""
+        return as_number(self.ratio) if self.ratio else Fraction(1)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Its value, and a ratio that is unknown."""
+        unknown = [self.ratio] if self.known_ratio is None else []
+        return (*([self.value] if self.value else []), *unknown)
+
+    @property
+    def feels(self) -> dict[int, Fraction | str]:
+        """The vector v, by nodes other than the ground; a text stands for minus a parameter."""
+        first, *others = self.nodes
+        if self.letter == "a" or not others:
+            return {first: Fraction(1)}
+        ratio = self.known_ratio
+        number: Fraction | str = self.ratio if ratio is None else -ratio
+        return {i: x for i, x in ((first, Fraction(1)), (others[0], number)) if i}
+
+    @property
+    def pulls(self) -> dict[int, Fraction | str]:
+        """The vector u."""
+        if self.letter != "a":
+            return self.feels
+        return {i: x for i, x in zip(self.nodes, (Fraction(1), Fraction(-1)), strict=True) if i}
+
+    def __str__(self) -> str:
+        where = " ".join(map(str, self.nodes))
+        more = f" *{self.ratio}" if self.ratio else ""
+        more += f" ^{self.exponent}" if self.exponent else ""
+        return f"{self.value or self.letter} {where}{more}"
+
+
+@dataclass(frozen=True, slots=True)
+class Port:
+    """Where a force acts or a current enters (+ at `plus`, - at `minus`), or what a sensor shows:
+    x[plus] - x[minus]. Node 0 is the ground. Immutable and hashable. Raises InputError.
+
+    >>> Port(3), Port(2, 1).ends
+    (Port(plus=3, minus=0), {2: 1, 1: -1})
+    """
+
+    plus: int
+    minus: int = 0
+
+    def __post_init__(self) -> None:
+        for end in (self.plus, self.minus):
+            if type(end) is not int or end < 0:
+                raise InputError(f"a port is at nodes 1, 2, .. or 0, the ground, not {short(end)}")
+
+    @property
+    def ends(self) -> dict[int, int]:
+        """The vector b or c, by nodes other than the ground; nothing where both ends are one."""
+        apart = self.plus != self.minus
+        return {i: x for i, x in ((self.plus, 1), (self.minus, -1)) if i and apart}
+
+
+def _problems_of_element(e: Element) -> Iterator[str]:
+    """Yield what is wrong with one element, each with its remedy."""
+    for text in (e.value, e.letter, e.ratio, e.exponent):
+        if not isinstance(text, str):
+            yield f"name, kind, ratio and exponent of an element are texts, not {short(text)}"
+    if e.letter not in KINDS:
+        yield f"kinds of elements are {_words(KINDS)}, not {short(e.letter)}"
+    if not isinstance(e.nodes, tuple) or not all(type(i) is int for i in e.nodes):
+        yield f"nodes of an element are a tuple of whole numbers, not {short(e.nodes)}"
+    called = e.value or "one"
+    if min(e.nodes, default=-1) < 0 or len(e.nodes) != e.kind.ends or len({*e.nodes}) < e.kind.ends:
+        ends = {1: "one node", 2: "two different nodes"}[e.kind.ends]
+        yield f"{called} is a {e.kind.word}: it sits at {ends}, 0 for the ground"
+    if e.nodes[0] == 0 and e.kind.sort is Sort.COMPARTMENTS:
+        yield (
+            f"{called} is a {e.kind.word}: number compartments from 1; 0 is the outside, where a"
+            " flow ends"
+        )
+    if e.nodes[0] == 0 and e.kind.ends == 1:
+        yield f"{called} is a {e.kind.word}: it cannot be at the ground"
+    if e.letter == "v" and e.value:
+        yield f"{short(e.value)} is a compartment, which has no value: leave its name empty"
+    if e.letter != "v" and not _is_name(e.value):
+        yield f"{short(e.value)} is no name of a value: use letters, digits and _, and not s alone"
+    if e.letter != "v" and kind_of(e.value) != e.kind:
+        yield (
+            f"{e.value} names a {kind_of(e.value).word}: begin the name of a {e.kind.word} with"
+            f" {e.letter}"
+        )
+    if e.ratio and (e.kind.ends == 1 or e.letter == "a" or 0 in e.nodes):
+        yield f"{called} has a ratio, as of a gear: that needs two nodes other than the ground"
+    if e.exponent and e.letter != "P":
+        yield f"{called} is a {e.kind.word}, which has no exponent: leave that away"
+    if e.exponent and not _is_name(e.exponent):
+        yield f"{short(e.exponent)} is no exponent: use a name such as n1"
+    if e.known_ratio == 0:
+        yield f"the ratio of {called} is zero: leave the gear away"
+    if e.known_ratio is None and not _is_name(e.ratio):
+        yield f"{short(e.ratio)} is no ratio: use a name other than s, or a number such as 3/2"
+
+
+def _is_name(text: str) -> bool:
+    """Whether it can name a value: s is the frequency variable."""
+    return text.isidentifier() and text.isascii() and text != "s"
+
+
+def _words(letters: Iterable[str]) -> str:
+    return ", ".join(f"{letter} {KINDS[letter].word}" for letter in letters)
+
+
+def as_number(text: str) -> Fraction | None:
+    """The number that a text is: 3, 3/2, 0.25; None of another text."""
+    if not re.fullmatch(r"\d{1,30}(\.\d{1,30}|/\d{1,30})?", text) or re.search(r"/0+$", text):
+        return None
+    return Fraction(text)
+
+
+def kind_of(name: str) -> Kind:
+    """The kind that the first letter of a name says: b is a damper too, as of bearings; raises
+    InputError.
+
+    >>> kind_of("k12").word, kind_of("b2").word
+    ('spring', 'damper')
+    """
+    letter = "d" if name[:1] == "b" else name[:1]
+    if name[:3] == "CPE":
+        raise InputError(f"{short(name)} is a constant phase element: call it P{name[3:]}")
+    if letter not in KINDS or letter == "v":
+        letters = _words(letter for letter in KINDS if letter != "v")
+        raise InputError(f"{short(name)} begins with no letter of an element; there are {letters}")
+    return KINDS[letter]
+
+
+Edge = tuple[int, int]
+L = TypeVar("L")
+
+
+def edges(element: Element) -> tuple[Edge, ...]:
+    """Between which nodes it goes: a mass is felt against the ground; a gear of a ratio other than
+    1 pushes against its casing, so it joins both nodes and the ground.
+    """
+    first, *others = element.nodes
+    second = others[0] if others else 0
+    if element.ratio and element.known_ratio != 1 and first and second:
+        return (first, second), (first, 0), (second, 0)
+    return ((first, second),)
+
+
+def parts(nodes: Iterable[int], joined: Iterable[Edge]) -> dict[int, int]:
+    """For each node the smallest one that it is connected with."""
+    root = {node: node for node in nodes}
+
+    def found(node: int) -> int:
+        while root[node] != node:
+            node = root[node]
+        return node
+
+    for a, b in joined:
+        low, high = sorted((found(a), found(b)))
+        root[high] = low
+    return {node: found(node) for node in root}
+
+
+def seen_by_blocks(
+    elements: Sequence[Element], inputs: Iterable[Port], outputs: Iterable[Port]
+) -> frozenset[int]:
+    """Positions of the elements that can enter a transfer function of a reciprocal network.
+
+    With an edge for each port, they lie in a block (a 2-connected component) with the edges of an
+    input and of an output. Proof. P = sum p s^r u u^T, so det P is a sum over spanning trees, and
+    c^T adj P b one over forests of two trees that both port edges connect. A block that is left out
+    meets the rest in one node, so both sums have its own sum over trees as a factor, which cancels.
+    """
+    import networkx  # imported late: it takes longer than most of what is asked
+
+    joined: list[tuple[Edge, tuple[int | str, int]]] = [
+        *((edge, (at, i)) for at, e in enumerate(elements) for i, edge in enumerate(edges(e))),
+        *(((p.plus, p.minus), ("in", i)) for i, p in enumerate(inputs)),
+        *(((p.plus, p.minus), ("out", i)) for i, p in enumerate(outputs)),
+    ]
+    # networkx knows blocks of graphs without parallel edges: every edge gets a node in its middle
+    graph: networkx.Graph[Any] = networkx.Graph()
+    for (a, b), key in joined:
+        graph.add_edges_from(((a, key), (key, b)))
+    seen = set[int]()
+    blocks: Iterable[Iterable[Any]] = networkx.biconnected_components(graph)
+    for block in blocks:
+        marks = {key[0] for key in block if isinstance(key, tuple)}
+        if {"in", "out"} <= marks:
+            seen |= {at for at in marks if isinstance(at, int)}
+    return frozenset(seen)
+
+
+def reachable(elements: Sequence[Element], start: Iterable[int], backwards: bool) -> set[int]:
+    """Compartments that flows reach from some, or from which some are reached."""
+    nodes = set(start)
+    while True:
+        more = {
+            ends[not backwards]
+            for ends in (e.nodes for e in elements if e.letter == "a")
+            if ends[backwards] in nodes
+        }
+        if more <= nodes | {0}:
+            return nodes
+        nodes |= more - {0}
+
+
+def seen_by_flows(
+    elements: Sequence[Element], inputs: Iterable[Port], outputs: Iterable[Port]
+) -> frozenset[int]:
+    """Positions of the elements of compartments that can enter: those of compartments that an input
+    reaches, and from which an output is reached. Others have a block of zeros in P.
+    """
+    ahead = reachable(elements, [p.plus for p in inputs], False)
+    behind = reachable(elements, [p.plus for p in outputs], True)
+    return frozenset(i for i, e in enumerate(elements) if e.nodes[0] in ahead & behind)
+
+
+def renumber(places: Mapping[int, int], element: Element) -> Element:
+    """The element at other nodes, of which one can be the ground unless it is a gear."""
+    nodes = tuple(places[i] for i in element.nodes)
+    ratio = "" if element.known_ratio == 1 else element.ratio
+    return replace(element, nodes=nodes, ratio=ratio)
+
+
+def join(
+    labelled: Iterable[tuple[tuple[int, ...], L]],
+    kept: Iterable[int],
+    in_series: Callable[[Iterable[L]], L],
+    in_parallel: Callable[[Iterable[L]], L],
+) -> dict[frozenset[int], L]:
+    """Labels of edges by their ends, when edges in parallel, and in series at nodes that are not
+    `kept`, have become one. An edge of one end goes to the ground.
+    """
+    between: dict[frozenset[int], list[L]] = {}
+    for nodes, label in labelled:
+        between.setdefault(frozenset((*nodes, 0)[:2]), []).append(label)
+    edges, held = {ends: in_parallel(labels) for ends, labels in between.items()}, set(kept)
+    while True:
+        degree = Counter(i for ends in edges for i in ends)
+        at = next((i for i, count in degree.items() if count == 2 and i not in held), None)
+        if at is None:
+            return edges
+        meeting = [ends for ends in edges if at in ends]
+        across = frozenset().union(*meeting) - {at}
+        made = in_series(edges.pop(ends) for ends in meeting)
+        edges[across] = in_parallel([edges[across], made]) if across in edges else made
+
+
+def move(e: Element, places: Mapping[int, int]) -> Element | None:
+    """The element at other nodes; None of one whose ends are the same node."""
+    nodes = tuple(places[i] for i in e.nodes)
+    if len(nodes) == 1:
+        return None if nodes[0] == 0 else replace(e, nodes=nodes)
+    if nodes[0] == nodes[1]:
+        return None
+    return replace(e, nodes=nodes if nodes[0] else nodes[::-1])
+
 
 MOST_NODES = 40
 MOST_ELEMENTS = 300
@@ -38,7 +385,7 @@ class Network(NotebookPicture):
 
     Node 0 is the ground. Immutable and hashable; equal if all is but the name. Raises InputError.
 
-    >>> from disting.network.element import Element, Port
+    >>> from disting.network.network import Element, Port
     >>> r, c = Element("R", "R", (1, 0)), Element("C", "C", (1, 0))
     >>> Network((r, c), (Port(1),), (Port(1),)).parameters
     ('C', 'R')

@@ -48,8 +48,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from disting.network.graph import join
-from disting.network.network import Network
+from disting.network.network import Network, join
 from disting.network.outflows import simplest_outflows
 
 REMEMBERED = 4096  # networks

@@ -15,9 +15,8 @@ from itertools import islice, pairwise, permutations, product
 from typing import Any
 
 from disting.model.chain import Sort
-from disting.network.element import KINDS, PHASE, Element, Port
 from disting.network.gears import without_gears
-from disting.network.network import Network
+from disting.network.network import KINDS, PHASE, Element, Network, Port
 from disting.network.normal_form import NormalForm, Part, Power, dual, normal_form
 
 REMEMBERED = 4096

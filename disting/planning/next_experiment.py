@@ -41,8 +41,7 @@ from disting.model.question import Settings
 from disting.planning.fit_file import FitRecord, Survivor
 from disting.planning.power import power
 from disting.verdict.engine import Engine, Progress, silent
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 Spot = tuple[int, int]
 """(structure, counted from 0; mass)."""

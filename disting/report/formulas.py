@@ -48,7 +48,7 @@ from disting.equivalence.reach import Piece
 from disting.equivalence.theorems import images
 from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of, tree
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.model.chain import Chain
 from disting.questions.identifiability.parts import Combination, Formula
 

@@ -41,8 +41,7 @@ from disting.report.payload import one_sided_pairs, script_json, with_exceptions
 from disting.report.scene import PAGE_PALETTE, Ink, Layer, Path, Rect, Scene, body, number
 from disting.report.search import families
 from disting.report.words import headline, plural, short_title, title, totals, unknown_parameters
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 
 
 def descriptions(n_masses: int, *, damped: bool) -> Iterator[Chain]:

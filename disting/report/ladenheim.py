@@ -18,7 +18,7 @@ from markupsafe import Markup
 
 from disting.equivalence.duplicates import duplicate
 from disting.evidence.general import BOTH, Explicit
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.special_values import Special, lower_degree
 from disting.model.question import Domain
 from disting.network.exact import within
@@ -27,8 +27,7 @@ from disting.report.environment import render
 from disting.report.formulas import typeset
 from disting.report.listing import Card, Listing
 from disting.report.words import plural
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 
 FAMILY, ADDRESS = "circuits-5", "ladenheim.html"
 OPEN = (Relation.SOMETIMES, Relation.UNDECIDED)

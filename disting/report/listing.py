@@ -25,8 +25,7 @@ from disting.report.words import sets_in_words
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.identifiable import Identified, identify
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,7 @@ from disting.conditions.rule import RULES
 from disting.report.png import png
 from disting.report.scene import Anchor, Ink, Layer, Path, Rect, Scene, Shape, Text, svg
 from disting.report.words import VIEW_TITLES, headline, title, totals
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 
 FILLS = {
     Relation.DISTINGUISHABLE: Ink.DISTINGUISHABLE,

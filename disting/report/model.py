@@ -28,8 +28,7 @@ from disting.report.formulas import (
 )
 from disting.report.next_steps import advice, drawings_of, found_for, page_of
 from disting.report.words import plural, sets_in_words, short_title
-from disting.verdict.query import View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation, Verdict, View
 
 
 @dataclass(frozen=True, slots=True)

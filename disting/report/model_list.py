@@ -40,8 +40,7 @@ from disting.report.payload import VIEWS, payload
 from disting.report.words import SAID, VIEW_TITLES
 from disting.verdict.engine import Engine
 from disting.verdict.meaning import meaning_sentence as shows
-from disting.verdict.query import View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation, Verdict, View
 from disting.verdict.sides import Named, refuse_ports
 
 MOST_TWINS = 12  # of which formulas are written

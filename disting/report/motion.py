@@ -23,15 +23,14 @@ from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Sensor, Sort
 from disting.network import Element, Network
 from disting.network.gears import unknown_ratios, without_gears
-from disting.network.graph import edges
+from disting.network.network import edges
 from disting.report.drawing import JOINT, MASS, PITCH, WALL, draw, parts_of, share
 from disting.report.environment import render
 from disting.report.listing import JudgedList, Listing
 from disting.report.model import folder_of, ways
 from disting.report.payload import one_sided_pairs, script_json, with_exceptions
 from disting.report.words import short_title
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 
 # of the machine that is shown first [kg, N/m, N s/m]: modes of about 1 Hz, which the eye follows,
 # damped by some percent; no two springs have one ratio k/d, which would make more models equivalent

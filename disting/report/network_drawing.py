@@ -22,7 +22,7 @@ from math import cos, pi, sin
 from disting.general import AnyModel, as_chain
 from disting.model.chain import Chain, Sensor, Sort
 from disting.network import Element, Network
-from disting.network.graph import edges
+from disting.network.network import edges
 from disting.report.drawing import draw
 from disting.report.network_symbols import Sheet, Track, draw_symbol, gear
 from disting.report.png import png

@@ -15,7 +15,7 @@ from disting.model.chain import Chain
 from disting.report.drawing import Sketch, sketch
 from disting.verdict.next_experiments import Menu
 from disting.verdict.next_words import anywhere, conclusion, in_words, left_over
-from disting.verdict.query import View
+from disting.verdict.result import View
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,8 +47,7 @@ from disting.report.words import (
     with_and,
 )
 from disting.verdict.next_words import group_in_words
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 
 LISTED_PAIRS = 60  # undecided pairs up to this number are listed one by one
 BELOW, ABOVE = VIEWS  # shown first

@@ -32,8 +32,7 @@ from disting.report.words import (
     totals,
 )
 from disting.verdict.meaning import RESPONSE, meaning_sentence
-from disting.verdict.query import View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation, Verdict, View
 
 Members = tuple[int, ...]
 VIEWS = (View.POSITIVE, View.EXACT)  # the engineer's first, then the paper's

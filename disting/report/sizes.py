@@ -20,8 +20,7 @@ from disting.report.environment import render
 from disting.report.payload import VIEWS, over, pack, payload
 from disting.report.search import Families, families
 from disting.report.words import VIEW_TITLES, plural, raise_exponents
-from disting.verdict.query import View
-from disting.verdict.result import Verdict
+from disting.verdict.result import Verdict, View
 
 UNTOLD, LEFT_INSIDE, RIGHT_INSIDE, NO_LIMIT, NOT_KNOWN = range(5)
 KINDS = {

@@ -10,8 +10,7 @@ from disting.model.presentation import plural as plural
 from disting.model.question import Domain
 from disting.questions.identifiability.parts import Level
 from disting.verdict.meaning import undetermined_sentence
-from disting.verdict.query import View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Relation, Verdict, View
 
 if TYPE_CHECKING:  # words on catalogues are used by pages that need none
     from disting.catalogs import Catalog, ModelRow

@@ -27,8 +27,7 @@ from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Sort, Structure
 from disting.network.chains import elements_of, ports_of
-from disting.network.element import Element, Port
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port
 
 AnyModel = Chain | Structure | Network
 Powers = Mapping[float, Real]

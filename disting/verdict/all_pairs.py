@@ -21,8 +21,7 @@ from disting.model.question import Domain
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.cascade import said_of
 from disting.verdict.decisions import NUMBERS, STAGES, Decisions, markov_count
-from disting.verdict.query import Query
-from disting.verdict.result import Relation, Step
+from disting.verdict.result import Query, Relation, Step
 
 Where = NDArray[np.bool_] | tuple[np.intp, np.intp]  # pairs, as a mask or as one position
 Prefetch = Callable[[Sequence[AnySide], Representation, int], None]

@@ -9,7 +9,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Seq
 from dataclasses import dataclass
 
 from disting.behaviour.profile import NoMatroid, Profile
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.conditions.side import AnySide
 from disting.conditions.sufficient import condition_6
 from disting.conditions.table import Necessary

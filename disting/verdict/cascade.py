@@ -14,9 +14,8 @@ from dataclasses import replace
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusion, Inclusions
-from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Role, Stage
+from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Finding, Outcome, Role, Stage
 from disting.conditions.side import AnySide, notes_of
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.errors import ContradictionError
@@ -25,8 +24,7 @@ from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.question import Domain
 from disting.questions.same.real_and_positive import resting_on
-from disting.verdict.query import Query
-from disting.verdict.result import PROVES, Relation, Step, Verdict, open_note
+from disting.verdict.result import PROVES, Query, Relation, Step, Verdict, open_note
 
 SUMMARIES = (Stage.TF, Stage.MARKOV)  # exhaustive ones, which profiles are made of
 STAGES = {

@@ -9,9 +9,8 @@ from functools import cached_property
 from disting.algebra.certainty import full_text
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.transfer import is_renaming
-from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusions
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.conditions.side import Ask, Side
 from disting.decide import POSITIVE_CHAINS, SAME_CHAINS, found_at_once, recheck
 from disting.evidence.conditions import Renaming

@@ -9,17 +9,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty
-from disting.conditions.finding import Finding
 from disting.conditions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
-from disting.conditions.rule import ADMISSIBLE, EXACT
+from disting.conditions.rule import ADMISSIBLE, EXACT, Finding
 from disting.conditions.side import AnySide, notes_of
 from disting.evidence.general import without_digits
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import BothWays
 from disting.verdict.cascade import decide, follows, over_domain
 from disting.verdict.comparison import prove_again
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 from disting.verdict.sides import Sides
 
 SECONDS = 60.0  # for a proof that took ten

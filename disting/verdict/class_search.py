@@ -29,8 +29,7 @@ import numpy as np
 from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import NoMatroid, Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain

@@ -35,8 +35,7 @@ from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.identifiable import identify, identify_measured
-from disting.verdict.query import Query, View
-from disting.verdict.result import Step, Verdict
+from disting.verdict.result import Query, Step, Verdict, View
 from disting.verdict.sides import (
     Given,
     both_places,

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from disting.algebra.certainty import Certainty, Grade
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding
 from disting.conditions.inclusion import Inclusion, Inclusions, Sense
-from disting.conditions.rule import ADMISSIBLE, RULES, Stage
+from disting.conditions.rule import ADMISSIBLE, RULES, Finding, Stage
 from disting.conditions.side import AnySide
 from disting.conditions.table import NECESSARY
 from disting.evidence.positive import PositiveFinding
@@ -24,8 +23,7 @@ from disting.model.chain import Chain
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.verdict.cascade import decide, verdict_of
 from disting.verdict.forest import classes_of
-from disting.verdict.query import Query
-from disting.verdict.result import Relation, Step, Verdict
+from disting.verdict.result import Query, Relation, Step, Verdict
 
 NAMES = ("", *RULES)  # what the numbers in `decided_by` stand for
 NUMBERS = {name: number for number, name in enumerate(NAMES)}

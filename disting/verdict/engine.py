@@ -32,8 +32,7 @@ from disting.model.question import Models, Question, Settings
 from disting.model.symmetry import canonical, refuse_gap_damper
 from disting.store.scheduling import map_tasks as map_tasks
 from disting.store.store import Store, digest
-from disting.verdict.query import Query
-from disting.verdict.result import Verdict
+from disting.verdict.result import Query, Verdict
 
 if TYPE_CHECKING:
     from disting.conditions.side import AnySide

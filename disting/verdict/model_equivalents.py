@@ -13,12 +13,10 @@ from disting.general.synthesis import NoFormulas
 from disting.general.target import rational_values
 from disting.model.presentation import NotebookTable, summary
 from disting.model.question import Domain
-from disting.network.element import as_number
-from disting.network.network import Network
+from disting.network.network import Network, as_number
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
-from disting.verdict.query import Query
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict
 
 MOST_SOLVED = 6  # parameters of models of which all values are looked for at once
 

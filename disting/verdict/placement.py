@@ -31,8 +31,7 @@ from math import ceil, log2
 from disting.algebra.certainty import Certainty, full_text
 from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Outcome
-from disting.conditions.rule import FREE_CHOICE, RENAMING
+from disting.conditions.rule import FREE_CHOICE, RENAMING, Outcome
 from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
 from disting.errors import InputError
@@ -50,7 +49,7 @@ from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.placement_record import REPEATS, TESTS, Placement, Spot, SpotClasses, SpotPairs
-from disting.verdict.query import Query, View
+from disting.verdict.result import Query, View
 
 MOST_SPOTS = 400  # of networks
 QUERY = Query(View.EXACT, inclusion=False)

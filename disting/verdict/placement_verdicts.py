@@ -19,8 +19,7 @@ from disting.model.question import Domain
 from disting.renamed import renamed
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
-from disting.verdict.query import Query
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict
 from disting.verdict.sides import Given, both_places, models_of_names
 from disting.verdict.verdict_file import (
     DAMAGED,

@@ -10,8 +10,7 @@ from disting.errors import InputError, of_type, short
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.measured_network import MeasuredNetwork, structure_of
 from disting.general.any_model import as_model, of_network, renamed_chain
-from disting.general.matrix_model import AnyModel, MatrixModel
-from disting.general.model import Model
+from disting.general.matrix_model import AnyModel, MatrixModel, Model
 from disting.model.chain import Chain, Sensor, as_sensor
 from disting.model.names import name_of, names_of, read_together
 from disting.network import Network, network_of

@@ -30,8 +30,7 @@ from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
 from disting.renamed import renamed
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 from disting.verdict.sides import Given, Sides, both_places, models_of_names, sides_of
 
 FORMAT = Format.VERDICT.value

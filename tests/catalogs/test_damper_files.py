@@ -38,8 +38,7 @@ from disting.catalogs.dampers import (
 )
 from disting.catalogs.files import SETTLED, append, damper_name, read_findings, shipped_folder
 from disting.cli import main
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.model.family import Family
 from disting.model.question import Settings
 from disting.model.symmetry import canonical

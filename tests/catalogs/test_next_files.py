@@ -21,7 +21,7 @@ from disting.errors import CatalogError
 from disting.verdict.engine import Engine
 from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import to_dict
-from disting.verdict.query import View
+from disting.verdict.result import View
 
 FAMILIES = [(n, damped) for n in SHIPPED_SIZES for damped in (False, True)]
 DAMPED_OR_NOT = pytest.mark.parametrize("damped", [False, True])

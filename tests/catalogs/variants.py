@@ -24,8 +24,7 @@ from disting.conditions.rule import DEGREES, INVARIANTS
 from disting.model.chain import Chain, Sensor
 from disting.model.family import Family
 from disting.verdict.engine import Engine
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation, Verdict
+from disting.verdict.result import Query, Relation, Verdict, View
 
 
 @dataclass(frozen=True, slots=True)

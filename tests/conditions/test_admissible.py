@@ -25,8 +25,8 @@ from disting.algebra.certainty import weakest
 from disting.catalogs import Catalog
 from disting.catalogs.build import build, false_evidence
 from disting.catalogs.export import decisions_csv
-from disting.conditions.finding import positive_ways
 from disting.conditions.inclusion import Inclusion
+from disting.conditions.rule import positive_ways
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import (
     BothWays,

@@ -8,7 +8,7 @@ import pytest
 
 from disting import Engine, Query, Relation
 from disting.algebra.certainty import Certainty
-from disting.conditions.finding import Finding, Outcome
+from disting.conditions.rule import Finding, Outcome
 from disting.evidence.kinds import evidence_from
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain

@@ -9,9 +9,8 @@ import pytest
 
 from disting import Certainty, Chain, Relation, Settings, compare
 from disting.algebra.certainty import LEAST_SAFETY, joint_safety, shortfall
-from disting.conditions.finding import Finding, Outcome
 from disting.conditions.inclusion import Inclusion, InclusionFinding
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.evidence.conditions import Ranks
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.model.symmetry import canonical

@@ -10,11 +10,10 @@ from disting import Chain, Engine, Family, Outcome, Query, View, compare
 from disting.algebra.certainty import LEAST_SAFETY, USELESS, Certainty, joint_safety
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding
 from disting.general.any_model import same
 from disting.general.behaviour import GeneralModel
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.model.question import Settings
 from disting.questions.same.exact import by_synthesis, resting_on_ranks
 from disting.verdict.joint import family_safety, joint_in_words

@@ -3,7 +3,7 @@
 import pytest
 
 from disting import Engine, Experiment, Family, network_of
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.experiments.experiment import MeasuredChain
 
 A = Family(3, damped=True)

@@ -15,7 +15,7 @@ from disting.evidence.kinds import Evidence, InclusionEvidence
 from disting.evidence.positive import BothWays, PositiveEvidence, PositiveFinding, Share
 from disting.model.question import Domain, Relation
 from disting.verdict.cascade import follows
-from disting.verdict.query import View
+from disting.verdict.result import View
 
 COMPLEX = Query(View.EXACT)
 

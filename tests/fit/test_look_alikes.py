@@ -30,16 +30,14 @@ from disting.measurement import read
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chain_of_whole_name, is_whole_name, name_of
 from disting.network.chains import of_chain
-from disting.network.element import Element, Port
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port
 from disting.report.fit import fit_page
 from disting.report.fit.answer import result_row
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines
 from disting.verdict.comparison import compare
 from disting.verdict.engine import Engine
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 from tests.fit.drives import response as noisy_response
 
 OMEGA = 2 * np.pi * np.geomspace(1, 2000, 60)

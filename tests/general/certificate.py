@@ -12,7 +12,7 @@ from fractions import Fraction
 from flint import fmpq, fmpq_poly
 
 from disting.general.equivalent import Equivalent
-from disting.general.model import Model, Terms
+from disting.general.matrix_model import Model, Terms
 from disting.general.target import Target
 from disting.model.question import Domain
 

@@ -8,7 +8,7 @@ import pytest
 
 from disting import Certainty, Query, Relation, View, compare
 from disting.algebra.symbols import RationalFunction
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.decide import VALUES_POSITIVE, first_finding
 from disting.errors import ContradictionError
 from disting.evidence.conditions import Renaming
@@ -18,7 +18,7 @@ from disting.general.alternatives import alternatives
 from disting.general.cases import Search
 from disting.general.elimination import Case
 from disting.general.formulas import is_explicit, is_without
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.model_evidence import confirms
 from disting.general.orthant import Orthant
 from disting.general.sections import sections

@@ -13,14 +13,13 @@ from hypothesis import assume, given, settings, strategies as st
 
 from disting import Family, InputError
 from disting.algebra.groebner.rational import TooLarge, basis
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Status, target as chain_target
 from disting.general.alternatives import AT_ONCE, alternatives
 from disting.general.any_model import of_network
 from disting.general.fibre import Extent
-from disting.general.matrix_model import MatrixModel
-from disting.general.model import Model
+from disting.general.matrix_model import MatrixModel, Model
 from disting.general.target import fibre_equations, rational_values, target
 from disting.model.question import Answer, Domain
 from disting.network.notation import network_of

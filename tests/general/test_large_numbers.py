@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from disting import Relation, compare
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 
 TRANSFER = Model.from_transfer_function
 PAIRS = [

@@ -13,7 +13,7 @@ import sympy as sp
 from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Family, InputError, Relation, compare
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 
 k12, k21, k01, k02 = sp.symbols("k12 k21 k01 k02")
 NAMES = "abcd"

@@ -11,7 +11,7 @@ from disting import Certainty, Query, Relation, View, compare
 from disting.evidence.conditions import Renaming
 from disting.evidence.decision import Theorem
 from disting.evidence.general import Explicit
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.one_ports import fills, same_one_ports
 
 

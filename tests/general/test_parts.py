@@ -9,8 +9,7 @@ from itertools import combinations
 import pytest
 import sympy
 
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
 from disting.evidence.decision import Theorem
 from disting.evidence.general import OfPart
 from disting.general.any_model import of_network

@@ -14,7 +14,7 @@ from disting.fibres.ideals import decide
 from disting.general.any_model import coefficient_map
 from disting.general.behaviour import GeneralModel
 from disting.general.identifiability import local_identifiability
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.model.question import Settings
 
 OTHER = Model.from_transfer_function(["c"], ["1", "0"], name="integrator")

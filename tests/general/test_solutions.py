@@ -7,7 +7,7 @@ import sympy as sp
 
 from disting.general.any_model import of_network
 from disting.general.global_identifiability import global_identifiability
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.network import network_of
 
 TF = Model.from_transfer_function

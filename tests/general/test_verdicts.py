@@ -22,13 +22,12 @@ from disting import (
 )
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import is_renamed
 from disting.general.behaviour import GeneralModel
 from disting.general.identifiability import local_identifiability
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.model_side import ComparedModel
 from disting.model.question import Settings
 

@@ -13,7 +13,7 @@ import sympy as sp
 
 from disting import Certainty, Family, Query, Relation, View, compare, compare as compare_chains
 from disting.algebra.symbols import RationalFunction
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.errors import InputError
 from disting.evidence.general import Explicit
 from disting.general.alternatives import alternatives
@@ -23,7 +23,7 @@ from disting.general.elimination import Case
 from disting.general.forms import over_positive
 from disting.general.formulas import fit, is_explicit
 from disting.general.intermediate_value import path
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.model_evidence import confirms, confirms_models
 from disting.general.orthant import BRIEF, Effort, Orthant, value_at
 from disting.general.robust import CaseSearch

@@ -22,7 +22,7 @@ CHECKS = """
 from dataclasses import replace
 from disting.algebra.certainty import Certainty, grade_of
 from disting.evidence.conditions import Mark
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.conditions.rule import AGAIN, ALWAYS, MARKED, NEVER
 
 

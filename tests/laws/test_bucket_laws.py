@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 
 from disting import Chain, Engine, Family, Query, Sensor, Settings, View
 from disting.verdict.cascade import decide
-from disting.verdict.query import ALL_CONDITIONS
+from disting.verdict.result import ALL_CONDITIONS
 from tests.laws.pairs import BY_CONDITIONS, ENGINE, family, subject
 from tests.laws.strategies import chains
 

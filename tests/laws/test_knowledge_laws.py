@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 
 from disting import Engine, Family, Query, Relation, Settings, View
-from disting.verdict.query import ALL_CONDITIONS
+from disting.verdict.result import ALL_CONDITIONS
 from tests.laws.pairs import (
     BY_CONDITIONS,
     ENGINE,

@@ -6,7 +6,7 @@ import pytest
 
 from disting import Chain, Family, Inclusion, Query, Sensor, View, compare, verify
 from disting.general.any_model import of_network
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.model.chain import text_drawing
 from disting.network.chains import as_chain, as_renamed_chain, of_chain
 from disting.network.network import Network

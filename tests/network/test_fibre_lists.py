@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from disting import Model, compare, network_of
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.general import fibre_lists
 from disting.general.admissible import admissible_finding
 from disting.general.any_model import of_network

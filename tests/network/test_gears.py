@@ -15,8 +15,8 @@ from disting.general.alternatives import alternatives
 from disting.general.any_model import of_network
 from disting.general.behaviour import GeneralModel
 from disting.network import Network, Port
-from disting.network.element import Element
 from disting.network.gears import units, unknown_ratios, without_gears
+from disting.network.network import Element
 from disting.network.notation import network_of
 from disting.network.simplest import simplest
 from disting.verdict.result import Relation

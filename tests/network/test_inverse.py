@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from disting import compare
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
 from disting.evidence.general import AtInverse, Replacement
 from disting.general.any_model import of_network
 from disting.general.forms import by_inverse, confirms_forms

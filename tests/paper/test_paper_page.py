@@ -9,8 +9,7 @@ import pytest
 
 from disting.report.matrix import LETTER
 from disting.report.scene import Text, svg
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 from reports.paper.figures import of_decisions, of_scene, paper_figures, refit_figure, triangles
 from reports.paper.make import paper_page, with_scripts, write_paper
 from tests.paper.claims import CLAIMS, Findings, Outcome

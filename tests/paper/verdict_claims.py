@@ -9,8 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from disting import Family, Relation, Sensor, View
-from disting.conditions.finding import Outcome as Holding
-from disting.conditions.rule import DEPENDENCES, Stage
+from disting.conditions.rule import DEPENDENCES, Outcome as Holding, Stage
 from disting.conditions.sufficient import condition_7, condition_9
 from disting.verdict.decisions import Pair
 from tests.paper.claim import (

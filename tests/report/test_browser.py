@@ -14,7 +14,7 @@ import disting
 from disting.catalogs import catalog
 from disting.report import page, write_report
 from disting.verdict.meaning import meaning_sentence
-from disting.verdict.query import View
+from disting.verdict.result import View
 from tests.cli.process import called
 from tests.report.links import follow_link
 

@@ -17,7 +17,7 @@ from disting.report import network_svg, write_report
 from disting.report.listing import Listing, judge
 from disting.report.model_list import write_model_list
 from disting.verdict.engine import Engine
-from disting.verdict.query import View
+from disting.verdict.result import View
 
 PAIR_OF = "R1-p(R2,C1)", "p(R1,R2-C1)"
 # some of the family, which has many pages

@@ -13,8 +13,7 @@ from disting.report.index import thumbnail
 from disting.report.matrix import WIDEST_PNG, figure, has_slides, sign, slide, slide_png
 from disting.report.scene import Ink, Rect, Text, extent
 from disting.report.words import VIEW_TITLES, totals
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 from tests.report.shapes import meet
 
 

@@ -9,8 +9,7 @@ from disting.conditions.inclusion import Inclusion
 from disting.evidence.positive import Share
 from disting.report.model import limits, model_page, reasons_apart, relation_from
 from disting.report.payload import one_sided_pairs
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 from tests.report.outline import Outline
 
 

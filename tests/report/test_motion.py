@@ -24,8 +24,7 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report import write_report
 from disting.report.motion import motion_page, start_values
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 from tests.report.links import follow_link
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")

@@ -29,7 +29,7 @@ from disting.report.motion import (
 )
 from disting.simulation import frequency_response, matrices, port_vectors
 from disting.verdict.engine import Engine
-from disting.verdict.query import View
+from disting.verdict.result import View
 
 pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 TEXTS = {

@@ -13,7 +13,7 @@ from disting.report import index, page
 from disting.report.payload import pack, script_json
 from disting.report.words import VIEW_TITLES
 from disting.verdict.meaning import meaning_sentence
-from disting.verdict.query import View
+from disting.verdict.result import View
 from tests.report.outline import Outline
 
 HOSTILE = """</script><script>alert("1")</script><img src=x onerror='alert(2)'>&amp;{{ 7*7 }}"""

@@ -28,7 +28,7 @@ from disting.report.sizes import (
     sizes_page,
 )
 from disting.verdict.meaning import meaning_sentence
-from disting.verdict.query import View
+from disting.verdict.result import View
 from tests.cli.process import called
 from tests.report.barriers import barriers
 from tests.report.links import follow_link

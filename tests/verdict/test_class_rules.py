@@ -9,8 +9,7 @@ import pytest
 from disting import Certainty, Chain, Engine, Finding, Relation
 from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.dampers import damper_family
-from disting.conditions.finding import Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Outcome
 from disting.conditions.sufficient import condition_8, condition_9
 from disting.questions.same.low_cost import QUICKLY
 from disting.verdict.class_search import classes

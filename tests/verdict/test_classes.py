@@ -25,8 +25,7 @@ from disting import (
     compare,
 )
 from disting.catalogs.dampers import DamperFamily, DamperSets, damper_family, dampers
-from disting.conditions.finding import Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Outcome
 from disting.errors import ContradictionError
 from disting.model.question import Settings
 from disting.questions.same.low_cost import QUICKLY, quick_finding, quick_profile

@@ -10,7 +10,7 @@ from random import Random
 import pytest
 
 from disting import Engine, Family, Query, Sensor, View, catalog, compare, read_models, verify
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.general.model_files import ModelList, models_of, write_models
 from disting.model.names import name_of
 from disting.report.listing import judge

@@ -14,12 +14,11 @@ from disting import Engine, Family, compare, verify
 from disting.catalogs.network_files import name_of as file_of, read
 from disting.files import shipped_folder
 from disting.general.any_model import of_network
-from disting.general.model import Model
+from disting.general.matrix_model import Model
 from disting.model.names import name_of
 from disting.network import network_of
 from disting.network.families import family_of
-from disting.network.graph import renumber
-from disting.network.network import Network, Port
+from disting.network.network import Network, Port, renumber
 from disting.store.store import Store
 from disting.verdict.result import Relation, Verdict
 from disting.verdict.verdict_file import verdict_file

@@ -31,8 +31,7 @@ from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 if TYPE_CHECKING:  # a side is made by the engine, where a verdict is not shipped
     from disting.verdict.chain_side import ComparedChain

@@ -24,8 +24,7 @@ from disting.measurement.arrays import Complex
 from disting.model.chain import Chain, Structure
 from disting.store import Store
 from disting.verdict.engine import Engine
-from disting.verdict.query import Query, View
-from disting.verdict.result import Relation
+from disting.verdict.result import Query, Relation, View
 
 SAME = 1e-6  # largest relative difference of two responses that are one, at all lines
 OPEN = "Whether that holds for positive parameters is not decided."

@@ -47,8 +47,7 @@ import numpy as np
 from disting.fit.search.modes import row
 from disting.model.chain import Chain
 from disting.network.chains import of_chain
-from disting.network.element import Element, Port
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port
 
 MOST_MASSES = 4
 RUBBING = ", with friction b1 between base and motor"

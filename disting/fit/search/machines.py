@@ -5,9 +5,8 @@ from dataclasses import replace
 
 from disting.model.chain import Chain, Sort
 from disting.network.chains import of_chain
-from disting.network.element import Element
 from disting.network.isomorphism import is_same_network
-from disting.network.network import Network
+from disting.network.network import Element, Network
 
 
 def as_machine(chain: Chain) -> Network:

@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Sort
-from disting.network.element import Element, Port
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port
 
 Entries = Mapping[int, Fraction | str | int]
 """Of a vector, by nodes; a text stands for minus a parameter."""

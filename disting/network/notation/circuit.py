@@ -23,8 +23,7 @@ from dataclasses import dataclass, field
 from itertools import count, islice, pairwise
 
 from disting.errors import InputError, short
-from disting.network.element import Element, Port
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port
 
 LINE = re.compile(r"([RLCWP]\w*)\s+(\w+)\s+(\w+)(?:\s+\S+)*", re.ASCII)
 PORT = re.compile(r"(?:port|[VI]\w*)\s+(\w+)\s+(\w+)(?:\s+\S+)*", re.ASCII | re.IGNORECASE)

@@ -12,8 +12,7 @@ from ast import literal_eval
 from collections import Counter
 
 from disting.errors import InputError, short
-from disting.network.element import Element, Port
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port
 
 CALL = re.compile(r"\s*linear_compartment_model\s*\((.*)\)\s*;?\s*", re.DOTALL)
 LISTS = (

@@ -16,8 +16,7 @@ from typing import Any
 
 from disting.errors import InputError, enumeration, of_type, short
 from disting.model.chain import Sensor, Sort, as_sensor
-from disting.network.element import KINDS, Element, Port, kind_of
-from disting.network.network import Network
+from disting.network.network import KINDS, Element, Network, Port, kind_of
 from disting.network.notation import DIALECTS, NOTATIONS, network_of
 from disting.network.notation.compartments import of_flows
 from disting.network.notation.torsion import drive_train

@@ -16,8 +16,7 @@ from collections.abc import Iterator
 
 from disting.errors import InputError, enumeration, short
 from disting.model.chain import Sensor
-from disting.network.element import KINDS, Element, Port
-from disting.network.network import Network
+from disting.network.network import KINDS, Element, Network, Port
 
 JOINTS = {"=": "kd", "~": "k", "-": "d"}
 JOINT = re.compile(r"\s*([=~-])\s*(#|\d+)(?:\*([\w./]+))?", re.ASCII)

@@ -22,9 +22,7 @@ from typing import Any
 
 from disting.errors import InputError, enumeration, of_type, short
 from disting.model.chain import Sensor, as_sensor
-from disting.network.element import Element, Port
-from disting.network.graph import parts
-from disting.network.network import Network
+from disting.network.network import Element, Network, Port, parts
 from disting.network.notation.machine import joint_name
 
 TYPES = ("Disk", "ShaftDiscrete", "GearElement")

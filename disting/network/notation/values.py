@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from disting.errors import InputError, enumeration, short
 from disting.model.names import MOST_DIGITS, is_too_long
-from disting.network.element import Element
+from disting.network.network import Element
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 LIMIT = rf"(?:{NUMBER}\s*%?|[-+]?inf)?"

@@ -7,7 +7,7 @@ from functools import partial
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.transfer import is_renaming
-from disting.conditions.finding import Finding
+from disting.conditions.rule import Finding
 from disting.decide import SAME_CHAINS, Of, check, deciders_of, recheck
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import FullRows, NoShares, Refutation, Solutions

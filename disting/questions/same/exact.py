@@ -43,8 +43,7 @@ from dataclasses import replace
 
 from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
 from disting.behaviour.profile import Profile
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.decide import SAME_CHAINS, first_finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import NoShares, Refutation, Solutions

@@ -16,8 +16,7 @@ from disting.behaviour.profile import (
     profile_from_json,
     profile_to_json,
 )
-from disting.conditions.finding import Finding, Outcome
-from disting.conditions.rule import EXACT
+from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.decide import SAME_CHAINS_PATIENTLY, SAME_CHAINS_QUICKLY, first_finding
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain

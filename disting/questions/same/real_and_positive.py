@@ -24,8 +24,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty, Grade, weakest
-from disting.conditions.finding import NOT_REAL, Finding, Outcome
-from disting.conditions.rule import ADMISSIBLE
+from disting.conditions.rule import ADMISSIBLE, NOT_REAL, Finding, Outcome
 from disting.decide import REAL_CHAINS, first_finding
 from disting.errors import InputError
 from disting.evidence.conditions import Renaming

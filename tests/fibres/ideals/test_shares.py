@@ -13,7 +13,7 @@ from disting import Family
 from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.modular import long_polynomial
 from disting.catalogs.dampers import damper_catalog
-from disting.conditions.finding import Outcome
+from disting.conditions.rule import Outcome
 from disting.fibres.ideals import Limits, decide, tell_chains_apart
 from disting.fibres.ideals.factored_map import row_factors, shared_fibre, values
 from disting.fibres.ideals.fibre_ideal import generic_rank

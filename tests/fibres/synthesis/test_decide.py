@@ -8,8 +8,7 @@ from disting.fibres.synthesis.decide import Direction, Grounds, decide, member
 from disting.fibres.synthesis.task import Status
 from disting.model.family import Family
 from disting.model.question import Membership
-from disting.verdict.query import View
-from disting.verdict.result import Relation
+from disting.verdict.result import Relation, View
 
 OPEN_MEMBERS = {
     (3, True): {(1, 11)},
