@@ -1,4 +1,4 @@
-"""The question about a pair, and its answer: the verdict with its proof, its words and its JSON form.
+"""The question about a pair and its answer: the verdict with its proof, its words, its JSON form.
 
 A query names what may decide: representations, conditions, Markov parameters, and the values of the
 parameters. By default it is about positive parameters: masses, springs and dampers of a machine are
