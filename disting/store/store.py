@@ -67,8 +67,8 @@ def modules_of(module: str) -> tuple[str, ...]:
     """A module and all modules of this package that it imports, directly or not, in order of their
     names.
 
-    >>> modules_of("disting.algebra.certainty")
-    ('disting.algebra.certainty', 'disting.algebra.certainty')
+    >>> modules_of("disting.quantities")
+    ('disting.errors', 'disting.quantities')
     """
     sources, modules, new = _sources(), set[str](), {module}
     while new:
