@@ -1,0 +1,1769 @@
+"""Check the shipped verdicts without the program that made them: `python -I -S check.py catalog`.
+
+Standard library only; nothing of disting is imported. Models are built from their names, here;
+transfer functions are determinants at points, modulo a prime. disting/guide/checking.md says what
+each kind of evidence stores and why it proves what it says.
+
+Three results: "checked" - what is stored was computed again and shows the verdict; "search" - the
+verdict rests on a search or a theorem that is not repeated here; "wrong". The status is 0 only if
+nothing is wrong and nothing is unreadable.
+
+Primes and points come of SHA-256 of the model's text (`draw`), so nobody chooses them. The error:
+a polynomial of degree d that is not zero vanishes at a random point with a probability of at most
+d/p (Schwartz, Zippel). Coefficients of these models, and minors of their Jacobians, have degrees
+below 2^12, and p is above 2^60: less than 2^-48 for one record.
+"""
+
+import ast
+import hashlib
+import json
+import math
+import re
+import sys
+import time
+from collections import Counter, namedtuple
+from fractions import Fraction
+from functools import cache, cached_property, lru_cache
+from itertools import combinations, permutations
+from operator import mul as times
+from pathlib import Path
+
+CHECKED, SEARCH, WRONG = "checked", "search", "wrong"
+
+
+# ---- numbers modulo a prime, drawn of a text -------------------------------------------------
+
+
+def is_prime(n):
+    """Miller and Rabin with the 12 first primes: certain below 3.3 * 10^24."""
+    bases = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
+    if any(n % b == 0 for b in bases):
+        return n in bases
+    r = ((n - 1) & -(n - 1)).bit_length() - 1
+    for b in bases:
+        x = pow(b, (n - 1) >> r, n)
+        if x not in (1, n - 1):
+            for _ in range(r - 1):
+                x = x * x % n
+                if x == n - 1:
+                    break
+            else:
+                return False
+    return True
+
+
+@cache
+def number(label):
+    """A whole number below 2^256, of a text."""
+    return int.from_bytes(hashlib.sha256(label.encode()).digest(), "big")
+
+
+@cache
+def prime_of(label):
+    """The first prime behind 2^60 + (a number below 2^60 of the label)."""
+    n = (1 << 60) + number("prime " + label) % (1 << 60) | 1
+    while not is_prime(n):
+        n += 2
+    return n
+
+
+def draw(label, names, p):
+    """A value modulo p for each name."""
+    return {name: 1 + number(f"{label} {name}") % (p - 1) for name in names}
+
+
+def engine_residue(label, modulus):
+    """The number of 1..modulus-1 that the engine's label stands for: a rule of its files."""
+    width = max(16, modulus.bit_length() // 8 + 9)
+    stream = hashlib.shake_256(label.encode()).digest(width)
+    return 1 + int.from_bytes(stream, "big") % (modulus - 1)
+
+
+def engine_prime(label, bits=64):
+    """The prime that the engine's label stands for: the first of the candidates that is one."""
+    top = 1 << (bits - 1)
+    for attempt in range(10_000):
+        candidate = engine_residue(f"prime:{label}:{attempt}", top) | top | 1
+        if is_prime(candidate):
+            return candidate
+    raise ValueError("no prime")
+
+
+# ---- polynomials in s modulo p: lists of coefficients, ascending, [] for zero ------------------
+
+
+def trim(a):
+    while a and not a[-1]:
+        a.pop()
+    return a
+
+
+def mul(a, b, p):
+    out = [0] * max(0, len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        if x:
+            for j, y in enumerate(b):
+                out[i + j] += x * y
+    return trim([x % p for x in out])
+
+
+def add(a, b, p, factor=1):
+    n = max(len(a), len(b))
+    a, b = a + [0] * (n - len(a)), b + [0] * (n - len(b))
+    return trim([(x + factor * y) % p for x, y in zip(a, b)])
+
+
+def divide(a, b, p):
+    """Quotient and remainder."""
+    a, out, inverse = list(a), [0] * max(0, len(a) - len(b) + 1), pow(b[-1], -1, p)
+    for k in range(len(a) - len(b), -1, -1):
+        q = out[k] = a[k + len(b) - 1] * inverse % p
+        if q:
+            for j, y in enumerate(b):
+                a[k + j] = (a[k + j] - q * y) % p
+    return trim(out), trim(a[: len(b) - 1])
+
+
+def exactly(a, b, p):
+    quotient, rest = divide(a, b, p)
+    if rest:
+        raise ArithmeticError("a division that ought to be exact")
+    return quotient
+
+
+def gcd_inverse(a, b, p):
+    """(gcd of a and b, t) with t a = gcd modulo b."""
+    r0, r1, t0, t1 = list(b), divide(a, b, p)[1], [], [1]
+    while r1:
+        q, r = divide(r0, r1, p)
+        r0, r1, t0, t1 = r1, r, t1, add(t0, mul(q, t1, p), p, -1)
+    return r0, t0
+
+
+def at(a, x, p):
+    value = 0
+    for c in reversed(a):
+        value = (value * x + c) % p
+    return value
+
+
+@cache
+def interpolation(xs, p):
+    """Of the Lagrange polynomials of these places the coefficients, by power."""
+    whole = [1]
+    for x in xs:
+        whole = mul(whole, [-x % p, 1], p)
+    parts = [exactly(whole, [-x % p, 1], p) for x in xs]
+    lagrange = [[c * pow(at(part, x, p), -1, p) % p for c in part] for part, x in zip(parts, xs)]
+    return list(zip(*lagrange))
+
+
+def through(values, columns, p):
+    return trim([sum(map(times, values, column)) % p for column in columns])
+
+
+def rank_of(rows, p):
+    """Rank of a matrix modulo p."""
+    rows, rank = [list(r) for r in rows], 0
+    for col in range(len(rows[0]) if rows else 0):
+        pivot = next((i for i in range(rank, len(rows)) if rows[i][col]), None)
+        if pivot is None:
+            continue
+        rows[rank], rows[pivot] = rows[pivot], rows[rank]
+        inverse = pow(rows[rank][col], -1, p)
+        top = [x * inverse % p for x in rows[rank]]
+        for i in range(rank + 1, len(rows)):
+            if f := rows[i][col]:
+                rows[i] = [(x - f * y) % p for x, y in zip(rows[i], top)]
+        rank += 1
+    return rank
+
+
+def inverse_of(rows, p):
+    """(inverse, determinant) modulo p; None for a singular matrix."""
+    n, det = len(rows), 1
+    a = [list(r) + [int(i == j) for j in range(n)] for i, r in enumerate(rows)]
+    for col in range(n):
+        pivot = next((i for i in range(col, n) if a[i][col] % p), None)
+        if pivot is None:
+            return None
+        if pivot != col:
+            a[col], a[pivot], det = a[pivot], a[col], -det
+        det = det * a[col][col] % p
+        inverse = pow(a[col][col], -1, p)
+        a[col] = [x * inverse % p for x in a[col]]
+        for i in range(n):
+            if i != col and (f := a[i][col]):
+                a[i] = [(x - f * y) % p for x, y in zip(a[i], a[col])]
+    return [r[n:] for r in a], det
+
+
+# ---- models, built from their names ------------------------------------------------------------
+
+# kind: its letter; the parameter stands in the matrix as it is, or as 1/parameter ("inverse"),
+# with s^power, at rows and columns of (e_a - e_b)(e_a - e_b)^T, or (e_a - e_b) e_a^T for a flow.
+Element = namedtuple("Element", "kind name a b power inverse exponent")
+Model = namedtuple(
+    "Model", "text names elements nodes force sensor order fixed lag delay exponents"
+)
+POWER = {"m": 2, "j": 2, "d": 1, "b": 1, "k": 0, "C": 1, "R": 0, "L": -1, "W": 0.5, "P": 0, "f": 0}
+
+
+def element(kind, name, a, b, exponent=""):
+    return Element(kind, name, a, b, POWER[kind], kind in "RLW", exponent)
+
+
+def model(text, elements, force, sensor, order=0, fixed=0, lag=False, delay=False, names=None):
+    """`fixed`: power of s on the whole diagonal (1 for compartments)."""
+    nodes = max([*force, *sensor, *(x for e in elements for x in (e.a, e.b))])
+    names = tuple(names or sorted({e.name for e in elements}))
+    exponents = tuple(sorted({e.exponent for e in elements if e.exponent}))
+    ports = force, sensor
+    return Model(text, names, tuple(elements), nodes, *ports, order, fixed, lag, delay, exponents)
+
+
+def between(i, j):
+    i, j = sorted((i, j))
+    return f"{i}{j}"
+
+
+@cache
+def chain(n, gap, am, ap, mm, mp, damped, dampers=(), lag=False, delay=False, order=2):
+    """Masses in a row, joints between neighbours but for the gap, the first one at the ground
+    where there is a gap; force between `am` and `ap`, sensor between `mm` and `mp`, 0: ground.
+    """
+    joints = [i for i in range(n) if i != gap]
+    parts = [element("m", f"m{i}", i, 0) for i in range(1, n + 1)]
+    parts += [element("k", f"k{i}{i + 1}", i, i + 1) for i in joints]
+    parts += [element("d", f"d{i}{i + 1}", i, i + 1) for i in joints if damped]
+    parts += [element("b", f"b{i}", i, 0) for i in dampers]
+    names = [e.name for e in parts] + ["T1"] * lag + ["Td"] * delay
+    text = f"chain {n} {gap} {am} {ap} {mm} {mp} {damped} {dampers} {lag} {delay} {order}"
+    return model(text, parts, (ap, am), (mp, mm), order, 0, lag, delay, names)
+
+
+def series_parallel(text):
+    """`R1-p(L1,R2)` as elements between nodes; the port is 1, 0."""
+    tokens, place, fresh, out = re.findall(r"[A-Z]\d+|[-p(),]", text), [0], [1], []
+    if "".join(tokens) != text:
+        raise ValueError(f"no circuit: {text}")
+
+    def one():
+        token = tokens[place[0]]
+        place[0] += 1
+        if token != "p":
+            return token
+        branches = []
+        while tokens[place[0]] in "(,":
+            place[0] += 1
+            branches.append(row())
+        place[0] += 1
+        return ("p", branches)
+
+    def row():
+        parts = [one()]
+        while place[0] < len(tokens) and tokens[place[0]] == "-":
+            place[0] += 1
+            parts.append(one())
+        return ("s", parts)
+
+    def lay(tree, a, b):
+        if isinstance(tree, str):
+            out.append(element(tree[0], tree, a, b, "n" + tree[1:] if tree[0] == "P" else ""))
+        elif tree[0] == "p":
+            for branch in tree[1]:
+                lay(branch, a, b)
+        else:
+            ends = [a]
+            for _ in tree[1][1:]:
+                fresh[0] += 1
+                ends.append(fresh[0])
+            for part, x, y in zip(tree[1], ends, [*ends[1:], b]):
+                lay(part, x, y)
+
+    lay(row(), 1, 0)
+    return model(text, out, (1, 0), (1, 0))
+
+
+def ends_of(text):
+    a, _, b = text.replace(" ", ":").partition(":")
+    return int(a), int(b or 0)
+
+
+def machine(text):
+    """`#~1, 1=2; F2:1; S2`: springs (~), dampers (-), both (=), a mass at each node."""
+    head, force, sensor = (part.strip() for part in text.split(";"))
+    parts, nodes = [], set()
+    for path in head.split(","):
+        tokens = re.findall(r"#|\d+|[~=-]", path)
+        if "".join(tokens) != path.replace(" ", ""):
+            raise ValueError(f"no machine: {text}")
+        for a, joint, b in zip(tokens[::2], tokens[1::2], tokens[2::2]):
+            a, b = (0 if x == "#" else int(x) for x in (a, b))
+            nodes |= {a, b} - {0}
+            for kind in {"~": "k", "-": "d", "=": "kd"}[joint]:
+                parts.append(element(kind, kind + between(a, b), a, b))
+    parts += [element("m", f"m{i}", i, 0) for i in sorted(nodes)]
+    if force[0] != "F" or sensor[0] != "S":
+        raise ValueError(f"no ports: {text}")
+    return model(text, parts, ends_of(force[1:]), ends_of(sensor[1:]), 2)
+
+
+def compartments(text):
+    head, force, sensor = (part.strip() for part in text.split(";"))
+    flows = []
+    for path in head.split(","):
+        tokens = re.findall(r"\d+|<>|>", path)
+        if "".join(tokens) != path.replace(" ", ""):
+            raise ValueError(f"no compartments: {text}")
+        for a, arrow, b in zip(tokens[::2], tokens[1::2], tokens[2::2]):
+            flows += [(int(a), int(b)), *[(int(b), int(a))] * (arrow == "<>")]
+    parts = [element("f", f"a{i}{j}", i, j) for i, j in flows]
+    given, seen = (int(re.fullmatch(r"(?:in|out) (\d+)", x)[1]) for x in (force, sensor))
+    return model(text, parts, (given, 0), (seen, 0), 0, 1)
+
+
+def listed(text):
+    """`k1 1 0, j1 1 2, in 3 1, out 3 2` or `R1 1 2; L1 2 0`: elements with their nodes."""
+    ports, parts = {"in": (1, 0), "out": (1, 0)}, []
+    for item in re.split(r"[,;]", text):
+        name, *ends = item.split()
+        ends = tuple(map(int, ends))
+        if name in ports:
+            ports[name] = ends
+        else:
+            parts.append(element(name[0], name, *ends, "n" + name[1:] if name[0] == "P" else ""))
+    return model(text, parts, ports["in"], ports["out"])
+
+
+@cache
+def network(text):
+    """The network of a text, in whichever of the four notations it is."""
+    if ">" in text:
+        return compartments(text)
+    if "; F" in text:
+        return machine(text)
+    return listed(text) if " " in text else series_parallel(text)
+
+
+# ---- transfer functions -------------------------------------------------------------------------
+
+
+def matrix(m, values, s, p, z, scale):
+    """Entries modulo p at s (with `scale` 2 s is the root of the frequency variable), times s^k
+    where elements have negative powers; and the derivative's weight of each element.
+    """
+    a = [[0] * m.nodes for _ in range(m.nodes)]
+    shift = -min([0, *(int(e.power * scale) for e in m.elements)])
+    weights = []
+    for e in m.elements:
+        w = pow(s, int(e.power * scale) + shift, p)
+        w = w * z[e.exponent] % p if e.exponent else w
+        x = values[e.name] % p
+        inverse = pow(x, -1, p) if e.inverse else 0
+        weights.append(-w * inverse * inverse % p if e.inverse else w)
+        x = w * (inverse if e.inverse else x) % p
+        for i, j, sign in places(e):
+            a[i][j] = (a[i][j] + sign * x) % p
+    if m.fixed:
+        for i in range(m.nodes):
+            a[i][i] += pow(s, m.fixed * scale + shift, p)
+    return a, weights, shift
+
+
+def places(e):
+    """(row, column, sign) of an element."""
+    a, b = e.a - 1, e.b - 1
+    if e.kind == "f":
+        return [(a, a, 1)] + ([(b, a, -1)] if b >= 0 else [])
+    first, second = [(a, 1)] * (a >= 0), [(b, -1)] * (b >= 0)
+    ends = first + second
+    return [(i, j, x * y) for i, x in ends for j, y in ends]
+
+
+def ports_dot(port, vector, p):
+    plus, minus = port
+    return ((vector[plus - 1] if plus else 0) - (vector[minus - 1] if minus else 0)) % p
+
+
+def solved(m, values, s, p, z, scale, slopes=True):
+    """(N, D, [(dN, dD) by element]) at one s; None where the matrix is singular."""
+    a, weights, shift = matrix(m, values, s, p, z, scale)
+    both = inverse_of(a, p)
+    if both is None:
+        return None
+    inverse, det = both
+    x = [ports_dot(m.force, row, p) for row in inverse]
+    h = ports_dot(m.sensor, x, p)
+    top = pow(s, m.order * scale + shift, p)
+    if not slopes:
+        return h * det * top % p, det, []
+    y = [ports_dot(m.sensor, column, p) for column in zip(*inverse)]
+    out = []
+    for e, w in zip(m.elements, weights):
+        trace = change = 0
+        for i, j, sign in places(e):
+            trace += sign * inverse[j][i]
+            change += sign * y[i] * x[j]
+        d_det = det * trace % p * w % p
+        out.append(((d_det * h - det * change % p * w) * top % p, d_det))
+    return h * det * top % p, det, out
+
+
+def value(m, values, s, p, z=(), scale=1):
+    """H at one s modulo p; None at a pole."""
+    found = solved(m, values, s, p, z, scale, slopes=False)
+    if found is None:
+        return None
+    lag = (1 + values["T1"] * s) % p if m.lag else 1
+    return found[0] * pow(found[1] * lag, -1, p) % p if lag else None
+
+
+def agree(left, x, right, y, label, p, scale=2):
+    """Whether both transfer functions are the same function of s: at 3 random s (degrees below
+    100, so by chance with at most (100/p)^3). s^n of a constant phase element is one more variable:
+    exponents are those of the same names, or exchanged.
+    """
+    own, others = left.exponents, right.exponents
+    return (
+        left.delay == right.delay
+        and len(own) == len(others)
+        and any(
+            all(
+                _agree_at(left, x, right, y, f"{label} {k}", p, scale, dict(zip(order, own)))
+                for k in range(3)
+            )
+            for order in permutations(others)
+        )
+    )
+
+
+def _agree_at(left, x, right, y, label, p, scale, of):
+    s = 2 + number(f"{label} s") % (p - 2)
+    z = draw(f"{label} z", left.exponents, p)
+    a = value(left, x, s, p, z, scale)
+    b = value(right, y, s, p, {n: z[of[n]] for n in of}, scale)
+    return a is not None and a == b
+
+
+class Profile:
+    """Reduced coefficients b0.. and a0.. (the last a is 1) at a random point, and derivatives."""
+
+    def __init__(self, m, scale=1):
+        # s^n of a constant phase element becomes s^(7/2): equal functions stay equal
+        plain = [e._replace(power=3.5, exponent="") if e.exponent else e for e in m.elements]
+        m = m._replace(elements=tuple(plain))
+        self.model, self.p = m, prime_of(f"{m.nodes} nodes")
+        self.values = draw(m.text, m.names, self.p)
+        self._compute(scale)
+
+    def _compute(self, scale):
+        m, p = self.model, self.p
+        size = max(int(2 * scale), *(int(scale * (e.power + 1)) for e in m.elements))
+        lagrange_at, got = [], []
+        s = 1
+        while len(got) < m.nodes * size + size + 1:
+            if (found := solved(m, self.values, s, p, {}, scale)) is not None:
+                lagrange_at.append(s)
+                got.append(found)
+            s += 1
+            if s > 10 * (len(got) + 20):
+                raise ArithmeticError("the matrix is singular everywhere")
+        lagrange = interpolation(tuple(lagrange_at), p)
+        num = through([g[0] for g in got], lagrange, p)
+        den = through([g[1] for g in got], lagrange, p)
+        slopes = {}
+        for k, e in enumerate(m.elements):
+            pair = [through([g[2][k][i] for g in got], lagrange, p) for i in (0, 1)]
+            slopes[e.name] = pair
+        if m.lag:
+            factor = [1, self.values["T1"]]
+            slopes = {n: [x, mul(y, factor, p)] for n, (x, y) in slopes.items()}
+            slopes["T1"] = [[], [0, *den]]
+            den = mul(den, factor, p)
+        self._reduce(num, den, slopes)
+
+    def _reduce(self, num, den, slopes):
+        p = self.p
+        common = gcd_inverse(num, den, p)[0]
+        self.den = exactly(den, common, p)
+        lead = self.den[-1]
+        self.den = [c * pow(lead, -1, p) % p for c in self.den]
+        factor = exactly(den, self.den, p)
+        self.num, square = exactly(num, factor, p), mul(factor, factor, p)
+        inverse = gcd_inverse(self.num, self.den, p)
+        inverse = [c * pow(inverse[0][0], -1, p) % p for c in inverse[1]]
+        self.slopes = {}
+        for name in self.model.names:
+            d_num, d_den = slopes.get(name, ([], []))
+            change = add(mul(d_num, den, p), mul(num, d_den, p), p, -1)
+            change = exactly(change, square, p) if change else []
+            v = divide(mul([-c % p for c in change], inverse, p), self.den, p)[1] if change else []
+            u = exactly(add(change, mul(v, self.num, p), p), self.den, p) if change or v else []
+            self.slopes[name] = (u, v)
+
+    @property
+    def degrees(self):
+        return [len(self.num) - 1, len(self.den) - 1]
+
+    @property
+    def labels(self):
+        """All coefficients; a dead time counts as one more."""
+        n, m = self.degrees
+        return [f"b{i}" for i in range(n + 1)] + [f"a{i}" for i in range(m)]
+
+    def gradient(self, label):
+        if label == "Td":
+            return [int(n == "Td" and self.model.delay) for n in self.model.names]
+        if label[0] == "G":
+            return self.markov(int(label[1:]))[1]
+        side, i = "ba".index(label[0]), int(label[1:])
+        rows = [self.slopes[n][side] for n in self.model.names]
+        return [r[i] if i < len(r) else 0 for r in rows]
+
+    def coefficient(self, label):
+        if label[0] == "G":
+            return self.markov(int(label[1:]))[0]
+        a, i = (self.num if label[0] == "b" else self.den), int(label[1:])
+        return a[i] if i < len(a) else 0
+
+    def markov(self, index):
+        """Coefficient of s^-index, and its derivatives."""
+        plain, slopes = self._expand()
+        return plain[index], [slopes[n][index] for n in self.model.names]
+
+    @cache  # noqa: B019 - profiles are kept as long as the program runs
+    def _expand(self, count=28):
+        p, m = self.p, len(self.den) - 1
+
+        def expand(a, top):
+            """a/den in 1/s, from s^top downwards."""
+            a, out = (a + [0] * (top + m + 1 - len(a)))[::-1], []
+            back = self.den[::-1]
+            for k in range(count):
+                x = a[k] if k < len(a) else 0
+                x -= sum(back[j] * out[k - j] for j in range(1, min(k, m) + 1))
+                out.append(x % p)
+            return out
+
+        if len(self.num) > len(self.den):
+            raise NotImplementedError("improper")
+        plain = expand(self.num, 0)
+        slopes = {}
+        for n, (u, v) in self.slopes.items():
+            first, second = expand(u, 0), expand(v, 0)
+            product = [sum(second[i] * plain[k - i] for i in range(k + 1)) for k in range(count)]
+            slopes[n] = [(x - y) % p for x, y in zip(first, product)]
+        return plain, slopes
+
+    def rank(self, labels=None):
+        labels = [*self.labels, *["Td"] * self.model.delay] if labels is None else labels
+        return rank_of([self.gradient(x) for x in labels], self.p)
+
+    @cached_property
+    def varying(self):
+        """Coefficients that depend on parameters."""
+        return {x for x in self.labels if any(self.gradient(x))}
+
+    @cached_property
+    def full_rank(self):
+        return self.rank()
+
+    @cached_property
+    def constants(self):
+        """Values of the other coefficients."""
+        fixed = (x for x in self.labels if x not in self.varying)
+        return {x: signed(self.coefficient(x), self.p) for x in fixed}
+
+    def unseen(self, name):
+        """Whether the coefficients leave a parameter free: a rank that does not fall without it."""
+        rows = [self.gradient(x) for x in self.labels]
+        i = self.model.names.index(name)
+        return rank_of([r[:i] + r[i + 1 :] for r in rows], self.p) == self.full_rank
+
+    def monomial(self, index):
+        """Whether a Markov parameter is a product of powers of parameters: then its logarithmic
+        derivatives are whole numbers, the same everywhere.
+        """
+        x, slopes = self.markov(index)
+        if not x:
+            return False
+        inverse = pow(x, -1, self.p)
+        ratios = [self.values[n] * d * inverse % self.p for n, d in zip(self.model.names, slopes)]
+        return all(min(r, self.p - r) < 50 for r in ratios)
+
+
+def signed(x, p):
+    return x if x < p // 2 else x - p
+
+
+profile = lru_cache(maxsize=None)(Profile)
+
+
+# ---- evidence -----------------------------------------------------------------------------------
+
+Pair = namedtuple("Pair", "left right label scale")
+Result = namedtuple("Result", "status why")
+DISTINGUISHABLE, SAME = "distinguishable", "indistinguishable"
+SHOWS = {
+    "counts": DISTINGUISHABLE,
+    "forms": DISTINGUISHABLE,
+    "ranks": DISTINGUISHABLE,
+    "constants": DISTINGUISHABLE,
+    "refuted": DISTINGUISHABLE,
+    "shared": DISTINGUISHABLE,
+    "renaming": SAME,
+    "free-choice": SAME,
+    "embedding": SAME,
+    "solved": SAME,
+    "full-parts": SAME,
+    "explicit": SAME,
+    "no equivalent": DISTINGUISHABLE,
+    "inequality": DISTINGUISHABLE,
+    "witnesses": "sometimes",
+    "of-part": "sometimes",
+}
+
+
+def result(is_right, why):
+    return Result(CHECKED, why) if is_right else Result(WRONG, why)
+
+
+def searched(why):
+    return Result(SEARCH, why)
+
+
+def sides(pair):
+    return profile(pair.left, pair.scale), profile(pair.right, pair.scale)
+
+
+def counts(pair, e):
+    """Degrees of both transfer functions in lowest terms."""
+    a, b = (x.degrees for x in sides(pair))
+    return result([a, b] == [e["left"], e["right"]] and a != b, "degrees computed again")
+
+
+def varies(x, label):
+    if label == "Td":
+        return x.model.delay
+    return any(x.gradient(label))
+
+
+def forms(pair, e):
+    """A coefficient that depends on parameters in one model, in the other one not at all."""
+    a, b = sides(pair)
+    ways = ((e["only_left"], a, b), (e["only_right"], b, a))
+    right = all(varies(x, n) and not varies(y, n) for names, x, y in ways for n in names)
+    return result(right and bool(e["only_left"] or e["only_right"]), "derivatives computed again")
+
+
+def ranks(pair, e):
+    """The same coefficients have different numbers of independent values."""
+    a, b = sides(pair)
+    found, every = (a.rank(e["rows"]), b.rank(e["rows"])), (a.full_rank, b.full_rank)
+    whole = e["rows"][:1] == ["G0"] or a.varying | b.varying <= set(e["rows"])
+    if e["all_rows"] and (found != every or not whole):
+        return result(False, "not all coefficients")
+    return result(found == (e["left"], e["right"]) and found[0] != found[1], "ranks computed again")
+
+
+def renaming(pair, e):
+    """One model is the other with parameters renamed, compared at a random point."""
+    p, (left, right, label, _) = prime_of(pair.label), pair
+    names = [sorted(x) for x in zip(*e["pairs"])]
+    if names != [sorted(left.names), sorted(right.names)]:
+        return result(False, "the renaming names other parameters")
+    x = draw(label, left.names, p)
+    y = {b: x[a] for a, b in e["pairs"]}
+    return result(agree(left, x, right, y, label, p, 2), "compared at a random point")
+
+
+def free_choice(pair, e):
+    """As many independent coefficients as vary, the same in both; the others are equal numbers."""
+    if pair.left.exponents or pair.right.exponents:
+        return searched("coefficients of constant phase elements")
+    a, b = sides(pair)
+    free, size = set(e["free"]), e["rank"]
+    right = a.varying == b.varying == free and a.full_rank == b.full_rank == size == len(free)
+    right = right and a.degrees == b.degrees and a.constants == b.constants
+    return result(right, "coefficients, ranks and constants computed again")
+
+
+def embedded(part, whole, numbering):
+    """Whether the part's elements and ports are among those of the whole."""
+    to = {0: 0, **dict(map(tuple, numbering))}
+    if len(set(to.values())) < len(to) or set(to) != set(range(part.nodes + 1)):
+        return False
+
+    def spot(e, via):
+        ends = via[e.a], via[e.b]
+        return (e.kind, ends if e.kind == "f" else tuple(sorted(ends)))
+
+    same = dict(zip(range(whole.nodes + 1), range(whole.nodes + 1)))
+    have = Counter(spot(e, same) for e in whole.elements)
+    need = Counter(spot(e, to) for e in part.elements)
+    ports = [tuple(to[x] for x in port) for port in (part.force, part.sensor)]
+    wanted = [whole.force, whole.sensor]
+    fits = any(all(x in (y, y[::-1]) for x, y in zip(ports, way)) for way in (wanted, wanted[::-1]))
+    if any(e.kind == "f" for e in whole.elements):
+        fits = ports == wanted
+    return fits and not need - have
+
+
+def embedding(pair, e):
+    """One model is the other without some elements, and both have one rank: the closures of what
+    they give are irreducible, of one dimension, one inside the other.
+    """
+    left, right = pair.left, pair.right
+    part, whole = (left, right) if e["left_is_submodel"] else (right, left)
+    fits = embedded(part, whole, e["numbering"])
+    a, b = sides(pair)
+    return result(fits and a.full_rank == b.full_rank == e["rank"], "elements and ranks compared")
+
+
+def solutions(pair, e):
+    """At the points of the labels, modulo their primes, the stored parameters of the other model
+    give the same function.
+    """
+    if e["is_normalised"]:
+        return searched("stored in other coordinates")
+    given, other = pair[:2] if e["left_given"] else pair[1::-1]
+    labels, values = e["labels"], e["solutions"]
+    if not labels or not len(labels) == len(set(labels)) == len(values):
+        return result(False, "no labels, or not as many solutions")
+    for label, values in zip(e["labels"], e["solutions"]):
+        p = engine_prime(label)
+        if len(values) not in (len(other.names), len(other.names) + 1):
+            return result(False, "solutions of other parameters")
+        if not all(x % p for x in values):
+            return searched("a solution with a zero")
+        x = {n: engine_residue(f"{of}:{label}", p) for n, of in zip(given.names, drawn_by(given))}
+        y = dict(zip(other.names, values))
+        if not agree(given, x, other, y, f"{pair.label} {label}", p):
+            return result(False, "a stored solution does not fit")
+    a, b = sides(pair)
+    if a.full_rank != b.full_rank:
+        return result(False, "ranks differ")
+    return Result(CHECKED, "solutions put in")
+
+
+def drawn_by(m):
+    """Names by which the engine draws values: those of a chain, p1, p2, .. of a network."""
+    return m.names if m.text.startswith("chain ") else [f"p{i + 1}" for i in range(len(m.names))]
+
+
+def formula_value(text, values, p):
+    """Value modulo p of a formula of + - * / ** in names; sqrt and others are refused."""
+
+    def walk(t):
+        if isinstance(t, ast.BinOp):
+            a, b = walk(t.left), walk(t.right)
+            if isinstance(t.op, ast.Pow):
+                return pow(a, b, p) if isinstance(t.right, ast.Constant) else bad()
+            if isinstance(t.op, ast.Div):
+                return a * pow(b, -1, p) % p
+            return {ast.Add: a + b, ast.Sub: a - b, ast.Mult: a * b}[type(t.op)] % p
+        if isinstance(t, ast.UnaryOp) and isinstance(t.op, ast.USub):
+            return -walk(t.operand) % p
+        if isinstance(t, ast.Name):
+            return values[t.id]
+        return t.value if isinstance(t, ast.Constant) and isinstance(t.value, int) else bad()
+
+    def bad():
+        raise NotImplementedError(text)
+
+    return walk(ast.parse(text.replace("^", "**"), mode="eval").body)
+
+
+def root_point(given, root, label, p):
+    """Random values of the given parameters and the root that fulfil its equation: solved for one
+    of them in which it is linear; None where there is none.
+    """
+    name, equation = root[0], root[1]
+    values = draw(label, (*given.names, name), p)
+    for n in (*given.names, name):
+        f = [formula_value(equation, values | {n: t}, p) for t in (0, 1, 2)]
+        if (f[2] - 2 * f[1] + f[0]) % p == 0 and (slope := (f[1] - f[0]) % p):
+            solved_for = -f[0] * pow(slope, -1, p) % p
+            return values | {n: solved_for} if solved_for else None
+    return None
+
+
+def explicit(pair, e):
+    """Formulas for the parameters of the other model, put in at a random point. Whether the cases
+    cover all parameters, and whether values are positive where a formula has a minus sign or a
+    root, is not repeated.
+    """
+    p, plain = prime_of(pair.label), Counter()
+    for k, (left_given, where, values, root) in enumerate(e["formulas"]):
+        given, other = pair[:2] if left_given else pair[1::-1]
+        label = f"{pair.label} formula {k}"
+        if {n for n, _ in values} != set(other.names):
+            return result(False, "the formulas give other parameters")
+        if any(v == "0" for _, v in values):
+            plain[None] += 1
+            continue
+        x = root_point(given, root, label, p) if root else draw(label, given.names, p)
+        if x is None:
+            plain[None] += 1
+            continue
+        try:
+            y = {n: formula_value(v, x, p) for n, v in values}
+        except NotImplementedError:
+            plain[None] += 1
+            continue
+        if not all(y.values()) or not agree(given, x, other, y, label, p):
+            return result(False, "a formula does not fit")
+        if not where and not root and not any("-" in v for _, v in values):
+            plain[left_given] += 1
+    if plain[True] and plain[False]:
+        return Result(CHECKED, "formulas put in, positive by their signs")
+    if plain[None]:
+        return searched("formulas near zeros or with roots that are not put in")
+    return searched("formulas put in; that they are positive, or the cases all, not repeated")
+
+
+def float_value(m, values, s):
+    """H at a positive s, in floating point."""
+    a = [[0.0] * (m.nodes + 1) for _ in range(m.nodes)]
+    for e in m.elements:
+        x = values[e.name]
+        x = s**e.power * (1 / x if e.inverse else x)
+        x *= s ** values.get(e.exponent, 0) if e.exponent else 1
+        for i, j, sign in places(e):
+            a[i][j] += sign * x
+    for i, row in enumerate(a):
+        row[i] += m.fixed * s
+        row[-1] = float((i + 1 == m.force[0]) - (i + 1 == m.force[1]))
+    x = [0.0, *float_solved(a)]
+    return x[m.sensor[0]] - x[m.sensor[1]]
+
+
+def float_solved(a):
+    """The solution of equations with their right side as last column, in floating point."""
+    a, n = list(a), len(a)
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda k: abs(a[k][i]))
+        a[i], a[pivot] = a[pivot], a[i]
+        for k in range(n):
+            if k != i and a[k][i]:
+                f = a[k][i] / a[i][i]
+                a[k] = [x - f * y for x, y in zip(a[k], a[i])]
+    return [a[i][-1] / a[i][i] for i in range(n)]
+
+
+@cache
+def refined(given, x, other, y):
+    """How far from its function the stored equivalent is (relative, at places on the positive
+    axis), and how far the end of a damped Newton iteration in logarithms, which keeps values
+    positive.
+    """
+    x, y = dict(x), dict(y)
+    places_ = [0.21 * 1.6**k for k in range(len(y) + 4)]
+    wanted = [float_value(given, x, s) for s in places_]
+    top, names = max(map(abs, wanted)), sorted(y)
+
+    def residuals(v):
+        values = dict(zip(names, map(math.exp, v)))
+        found = [float_value(other, values, s) for s in places_]
+        return [(b - a) / (abs(a) + 1e-6 * top) for a, b in zip(wanted, found)]
+
+    v = [math.log(y[n]) for n in names]
+    r = residuals(v)
+    first, damping = max(map(abs, r)), 1e-6
+    if first < 1e-5:
+        return first, first
+    for _ in range(300):
+        size = sum(t * t for t in r)
+        if size < 1e-24:
+            break
+        rows = []
+        for i in range(len(v)):
+            moved = residuals([t + 1e-7 * (i == j) for j, t in enumerate(v)])
+            rows.append([(a - b) / 1e-7 for a, b in zip(moved, r)])
+        square = [[sum(map(times, a, b)) + damping * (a is b) for b in rows] for a in rows]
+        step = float_solved([[*line, -sum(map(times, a, r))] for line, a in zip(square, rows)])
+        trial = [a + max(-1.0, min(1.0, b)) for a, b in zip(v, step)]
+        new = residuals(trial)
+        if sum(t * t for t in new) < size:
+            v, r, damping = trial, new, max(damping / 10, 1e-15)
+        else:
+            damping *= 10
+    return first, max(map(abs, r))
+
+
+def witnesses(pair, e):
+    """At a stored point the other model has the stored, rounded equivalent: a Newton iteration from
+    there in floating point ends at a positive one. That another point has none is not repeated.
+    """
+    given, other = pair[:2] if e["with_left_given"] else pair[1::-1]
+    x = {n: float(Fraction(v)) for n, v in e["point_with"]}
+    y = {n: float(v) if "/" not in v else float(Fraction(v)) for n, v in e["equivalent"]}
+    without = (pair.left if e["without_left_given"] else pair.right).names
+    if [set(x), set(y), {n for n, _ in e["point_without"]}] != [
+        set(m) for m in (given.names, other.names, without)
+    ]:
+        return result(False, "points of other parameters")
+    if e["domain"] != "positive" or min(*x.values(), *y.values()) <= 0:
+        return result(False, "a point that is not positive")
+    before, after = refined(given, tuple(x.items()), other, tuple(y.items()))
+    if after > 1e-5 or before > 0.9:
+        return result(False, f"no equivalent is near the stored one ({before:.0e}, {after:.0e})")
+    if before > 1e-3:
+        return searched("an equivalent is near the stored one, which is off by more than 1e-3")
+    return searched("the equivalent fits; that the other point has none is not repeated")
+
+
+def monomials_alike(text):
+    """Whether all terms of a polynomial have one sign, so that it is not zero for positive
+    values.
+    """
+    body = text.strip()
+    body = body[1:] if body.startswith("-") else body
+    plus, minus = "+" in body, "-" in body
+    return not (plus and (minus or text.strip().startswith("-")))
+
+
+def no_equivalent(pair, e):
+    """That one of the contradictions follows is not repeated."""
+    alike = [monomials_alike(c) for c in e["contradictions"] if not set("<>=") & set(c)]
+    why = "impossible by signs" if alike and all(alike) else "contradictions"
+    return searched(f"{why}; that they follow is not repeated")
+
+
+# polynomials in names over the integers: {exponents: number}, for an inequality's signs
+
+
+def poly_mul(a, b):
+    out = Counter()
+    for x, c in a.items():
+        for y, d in b.items():
+            out[tuple(map(sum, zip(x, y)))] += c * d
+    return Counter({k: v for k, v in out.items() if v})
+
+
+def symbolic(m):
+    """Coefficients of numerator and denominator by power of s, of a model whose elements stand in
+    the matrix as they are: the determinant by permutations of rows, s the last exponent.
+    """
+    if any(e.inverse or e.exponent for e in m.elements):
+        raise NotImplementedError("inverse elements")
+    size, where = len(m.names) + 1, {n: i for i, n in enumerate(m.names)}
+    a = [[Counter() for _ in range(m.nodes + 1)] for _ in range(m.nodes + 1)]
+    for e in m.elements:
+        key = (*(int(where[e.name] == i) for i in range(size - 1)), e.power)
+        for i, j, sign in places(e):
+            a[i][j][key] += sign
+    s = (0,) * (size - 1) + (1,)
+    for i in range(m.nodes):
+        if m.fixed:
+            a[i][i][s] += 1
+    one = (0,) * size
+    for port, put in ((m.force, 0), (m.sensor, 1)):
+        for end, sign in zip(port, (1, -1)):
+            if end:
+                i, j = (end - 1, m.nodes) if put == 0 else (m.nodes, end - 1)
+                a[i][j][one] += sign if put == 0 else -sign
+
+    def det(rows, columns):
+        if not rows:
+            return Counter({one: 1})
+        total = Counter()
+        for k, c in enumerate(columns):
+            if a[rows[0]][c]:
+                part = poly_mul(a[rows[0]][c], det(rows[1:], columns[:k] + columns[k + 1 :]))
+                for key, x in part.items():
+                    total[key] += x * (-1) ** k
+        return Counter({k: v for k, v in total.items() if v})
+
+    inner = tuple(range(m.nodes))
+    num, den = det((*inner, m.nodes), (*inner, m.nodes)), det(inner, inner)
+    num = Counter({(*k[:-1], k[-1] + m.order): v for k, v in num.items()})
+    low = min(k[-1] for k in (*num, *den))
+    out = [{}, {}]
+    for side, poly in enumerate((num, den)):
+        for k, v in poly.items():
+            out[side].setdefault(k[-1] - low, Counter())[k[:-1]] += v
+    return out
+
+
+def inequality(pair, e):
+    """A quadratic form in the coefficients whose terms all have one sign in one model, and the
+    other sign, or none, in the other one: expanded here.
+    """
+    given, other = pair[:2] if e["left_given"] else pair[1::-1]
+    signs = []
+    for m in (given, other):
+        num, den = symbolic(m)
+        total = Counter()
+        for number_, x, y in e["form"]:
+            x, y = ((num if n[0] == "b" else den).get(int(n[1:]), Counter()) for n in (x, y))
+            for k, v in poly_mul(x, y).items():
+                total[k] += v * number_
+        signs.append({(v > 0) - (v < 0) for v in total.values()} - {0})
+    if signs[0] == {-1} and signs[1] <= {1}:
+        return Result(CHECKED, "form expanded, its signs seen")
+    if {1} == signs[0] or signs[1] == {-1}:
+        return result(False, "the form has other signs")
+    return searched("form expanded; its signs are not seen by its terms")
+
+
+def inner_of(pair, e):
+    """Evidence on two networks that stand for these."""
+    a, b = network(e["left"]), network(e["right"])
+    inner = evidence(Pair(a, b, f"{pair.label} {e['left']} | {e['right']}", pair.scale), e["inner"])
+    if inner.status == WRONG:
+        return inner
+    return searched("the networks that stand for these are not derived again")
+
+
+def of_part(pair, e):
+    """The part, as it is the network of which the inner evidence speaks."""
+    whole = pair.left if e["left_is_part"] else pair.right
+    kept = [x for x in whole.elements if x.name not in e["missing"]]
+    if len(kept) + len(e["missing"]) != len(whole.elements):
+        return result(False, "elements are missing that are not there")
+    part = whole._replace(
+        text=f"{whole.text} without {e['missing']}",
+        elements=tuple(kept),
+        names=tuple(n for n in whole.names if n not in e["missing"]),
+    )
+    pair = pair._replace(**{"left" if e["left_is_part"] else "right": part})
+    inner = evidence(pair, e["inner"])
+    return inner if inner.status == WRONG else searched(f"part: {inner.why}")
+
+
+# theorems on chains: what they ask for, seen in the names
+
+
+def indices(m):
+    """(masses, gap, force, sensor, damped, the rest) of a chain's text."""
+    n, gap, am, ap, mm, mp, damped, *rest = m.text.removeprefix("chain ").split(" ")
+    return (*map(int, (n, gap, am, ap, mm, mp)), damped == "True", rest)
+
+
+def row_key(n, wall, a, b):
+    """A row up to exchange of its ports and, where it is free, mirroring."""
+    ports = sorted((a, b))
+    return (n, wall, *(ports if wall else min(ports, sorted((n + 1 - a, n + 1 - b)))))
+
+
+def rows_of(m):
+    n, gap, am, ap, mm, mp, *_ = indices(m)
+    grounded = {"grounded": row_key(gap, True, am, mm)} if gap else {}
+    return {"free": row_key(n - gap, False, ap - gap, mp - gap), **grounded}
+
+
+def is_dual(a, b):
+    """Gap g with both ports at its sides, against gap N - 1 - g, up to symmetry."""
+    n, gap, damped = indices(a)[0], indices(a)[1], indices(a)[6]
+    wanted = {"free": row_key(gap + 1, False, 1, 1)}
+    if n - 1 - gap:
+        wanted["grounded"] = row_key(n - 1 - gap, True, n - 1 - gap, n - 1 - gap)
+    own = {"free": row_key(n - gap, False, 1, 1)}
+    if gap:
+        own["grounded"] = row_key(gap, True, gap, gap)
+    return damped and rows_of(a) == own and rows_of(b) == wanted
+
+
+def is_foster(m):
+    """Undamped, force and sensor at one place in each row."""
+    return not indices(m)[6] and all(row[2] == row[3] for row in rows_of(m).values())
+
+
+def theorem(pair, e):
+    """Whether the theorem's premises hold for two chains; those of networks are not derived."""
+    a, b, name = pair.left, pair.right, e["name"]
+    if not (a.text.startswith("chain") and b.text.startswith("chain")):
+        return searched(f"theorem {name}: its premises are not derived again")
+    plain = all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
+    same_size = indices(a)[0] == indices(b)[0] and indices(a)[6] == indices(b)[6]
+    if not plain or name not in ("symmetry", "duality", "Foster", "Cauer"):
+        return searched(f"theorem {name}: its premises are not derived again")
+    holds = {
+        "symmetry": lambda: rows_of(a) == rows_of(b),
+        "duality": lambda: is_dual(a, b) or is_dual(b, a),
+        "Foster": lambda: is_foster(a) and is_foster(b),
+        "Cauer": lambda: is_foster(a) and is_foster(b),
+    }[name]()
+    return result(same_size and holds, f"premises of {name}")
+
+
+def by_search(pair, e):
+    return searched("a search that is not repeated")
+
+
+# inclusions: one model is a limit of the other one, or is none
+
+
+def relation_of_inclusion(pair, e, found):
+    """Evidence that speaks for a limit names the larger side; what `inclusion` says must fit."""
+    side = {True: "left", False: "right"}.get(e.get("left_is_larger", e.get("left_is_part")))
+    if e["kind"] in ("full-image", "limit", "meeting", "limit-fibre"):
+        return found == ("right-in-left" if side == "left" else "left-in-right")
+    if e["kind"] in (
+        "counts",
+        "larger-projection",
+        "too-large",
+        "relative-degrees",
+        "outside",
+        "pole-sharing",
+        "refuted",
+    ):
+        return found == "neither"
+    return True
+
+
+def full_image(pair, e):
+    """The larger model gives its varying coefficients any values; the others are those of the
+    smaller one.
+    """
+    a, b = sides(pair) if e["left_is_larger"] else sides(pair)[::-1]
+    right = a.varying == set(e["free"]) and a.full_rank == e["rank"] == len(a.varying)
+    right = right and a.degrees[1] == b.degrees[1] and a.degrees[0] >= b.degrees[0]
+    right = right and all(
+        x not in b.varying and signed(b.coefficient(x), b.p) == c for x, c in a.constants.items()
+    )
+    return result(right, "coefficients, ranks and constants computed again")
+
+
+def larger_projection(pair, e):
+    """Coefficients with a larger rank in the model of the smaller rank."""
+    a, b = sides(pair)
+    found = a.rank(e["rows"]), b.rank(e["rows"])
+    right = (
+        found == (e["left"], e["right"]) and (found[0] - found[1]) * (a.full_rank - b.full_rank) < 0
+    )
+    return result(right, "ranks computed again")
+
+
+def relative_degrees(pair, e):
+    """Of receptances: two more than those of accelerations. A larger one cannot fall; the first
+    Markov parameter of a smaller one must be a product, which is never zero.
+    """
+    a, b = sides(pair)
+    found = [x.degrees[1] - x.degrees[0] + x.model.order for x in (a, b)]
+    larger, small = (0, 1) if e["left_is_larger"] else (1, 0)
+    in_order = (a, b)[larger].full_rank > (a, b)[small].full_rank
+    if found != [e["left"], e["right"]] or found[0] == found[1] or not in_order:
+        return result(False, "relative degrees")
+    if found[larger] > found[small]:
+        return Result(CHECKED, "relative degrees computed again")
+    x = (a, b)[larger]
+    return (
+        Result(CHECKED, "relative degrees, and a product that is not zero")
+        if x.monomial(found[larger] - x.model.order)
+        else searched("no product is seen")
+    )
+
+
+def too_large(pair, e):
+    """The chain with fewer masses has as many determinable parameters or more."""
+    a, b = sides(pair)
+    found, (small, big) = [a.full_rank, b.full_rank], (0, 1)
+    if indices(pair.left)[0] > indices(pair.right)[0]:
+        small, big = 1, 0
+    return result(found == [e["left"], e["right"]] and found[small] >= found[big], "ranks")
+
+
+def meeting(pair, e):
+    """rank + factors + 1 (of the mass) >= coordinates: dimensions of cones add up."""
+    small, big = sides(pair) if not e["left_is_larger"] else sides(pair)[::-1]
+    step = 1 if indices(big.model)[6] else 2
+    room = [x - y for x, y in zip(big.degrees, small.degrees)]
+    found = big.full_rank, sum(big.degrees) // step + 2, min(room) // step + 1
+    right = found == (e["rank"], e["coordinates"], e["factors"]) and min(room) >= 0
+    momentum = all(
+        (x.coefficient("b0") * x.coefficient("a1") - x.coefficient("b1") * x.coefficient("a0"))
+        % x.p
+        == 0
+        for x in (small, big)
+    )
+    right = right and (not e["same_mass"] or (step == 1 and momentum))
+    enough = found[0] + found[2] + e["same_mass"] >= found[1]
+    return result(right and enough, "dimensions counted again")
+
+
+def step_row(row, element_, limit):
+    """A row (masses, wall, ports) after one limit; None for one that is not known here."""
+    n, wall, a, b = row
+    i = int(element_[1]) if re.fullmatch(r"k\d\d", element_) else -1
+    if limit == "0" and i == 0 and wall:
+        return n, False, a, b
+    if limit == "0" and 0 < i < n and max(a, b) <= i:
+        return i, wall, a, b
+    if limit == "0" and 0 < i < n and not wall and min(a, b) > i:
+        return n - i, False, a - i, b - i
+    if limit == "∞" and 0 < i < n:
+        return n - 1, wall, *(x - (x > i) for x in (a, b))
+    if limit == "∞" and i == 0 and wall and min(a, b) > 1:
+        return n - 1, True, a - 1, b - 1
+    if limit == "0" and element_ == f"m{n}" and not wall and max(a, b) < n:
+        return n - 1, wall, a, b
+    return None
+
+
+def limit(pair, e):
+    """Joints of the larger chain's rows that vanish or become rigid, one by one; a row that is not
+    named comes to rest. With a count in addition the last step is not repeated.
+    """
+    larger, smaller = pair[:2] if e["left_is_larger"] else pair[1::-1]
+    for own, shape in ((smaller, e["smaller"]), (larger, e["larger"])):
+        if shape:
+            n, *rest = shape
+            other = chain(n, *rest, indices(own)[6])
+            is_same = (
+                rows_of(own) == rows_of(other)
+                or is_dual(own, other)
+                or is_dual(other, own)
+                or (is_foster(own) and is_foster(other))
+            )
+            if n != indices(own)[0] or not is_same:
+                return result(False, "a chain that is not the same")
+            larger, smaller = (other, smaller) if own is larger else (larger, other)
+    have, want, why = rows_of(larger), rows_of(smaller), "rows"
+    if sorted(part[1] for part in e["parts"]) != sorted(want):
+        return result(False, "rows are missing")
+    for given, wanted, steps, room in e["parts"]:
+        row = have.pop(given)
+        for element_, to in steps:
+            row = step_row(row, element_, to) if row else None
+            row = row_key(*row) if row else None
+        if row is None:
+            return searched("a step that is not known here")
+        if room and not sum(room[::2]) + room[3] - 0 >= 0:
+            return result(False, "the count fails")
+        if room:
+            if room[0] + room[2] + room[3] < room[1]:
+                return result(False, "the count fails")
+            why = "count"
+        elif row != want[wanted]:
+            return result(False, "a row ends as another one")
+    return (
+        searched("steps followed, the count not repeated")
+        if why == "count"
+        else Result(CHECKED, "limits followed, row by row")
+    )
+
+
+CHECKS = {
+    "counts": counts,
+    "forms": forms,
+    "ranks": ranks,
+    "renaming": renaming,
+    "free-choice": free_choice,
+    "embedding": embedding,
+    "solved": solutions,
+    "explicit": explicit,
+    "witnesses": witnesses,
+    "no equivalent": no_equivalent,
+    "inequality": inequality,
+    "replaced": inner_of,
+    "at-inverse": inner_of,
+    "of-part": of_part,
+    "theorem": theorem,
+    "full-image": full_image,
+    "larger-projection": larger_projection,
+    "limit": limit,
+    "relative-degrees": relative_degrees,
+    "too-large": too_large,
+    "meeting": meeting,
+}
+
+
+UNREADABLE = (
+    KeyError,
+    ValueError,
+    TypeError,
+    IndexError,
+    AttributeError,
+    ArithmeticError,
+    SyntaxError,
+    RecursionError,
+)
+
+
+def evidence(pair, e):
+    """What evidence is worth; whatever cannot be read is wrong."""
+    try:
+        return CHECKS.get(e["kind"], by_search)(pair, e)
+    except NotImplementedError as why:
+        return searched(f"not known here: {why}"[:60])
+    except UNREADABLE as why:
+        return Result(WRONG, f"cannot be read: {type(why).__name__} {why}"[:90])
+
+
+# ---- files --------------------------------------------------------------------------------------
+
+
+class Table:
+    """Results by file kind, place of the record and evidence, with the first reasons."""
+
+    def __init__(self):
+        self.counts, self.wrong = {}, []
+
+    def add(self, kind, place, what, found, where):
+        row = self.counts.setdefault((kind, place, what, found.why), Counter())
+        row[found.status] += 1
+        if found.status == WRONG:
+            self.wrong.append(f"{where}: {place} {what}: {found.why}")
+
+    def __str__(self):
+        merged, total = {}, Counter()
+        for (kind, place, what, why), row in sorted(self.counts.items()):
+            whole = merged.setdefault((kind, place, what), [Counter(), []])
+            whole[0] += row
+            if row[SEARCH]:
+                whole[1].append(f"{row[SEARCH]} {why}")
+            total += row
+        lines = [f"{'file':14}{'record':16}{'evidence':18}{'checked':>9}{'search':>8}{'wrong':>7}"]
+        for (kind, place, what), (row, why) in merged.items():
+            told = "  " + "; ".join(why) if why else ""
+            lines.append(
+                f"{kind:14}{place:16}{what:18}{row[CHECKED]:9}{row[SEARCH]:8}{row[WRONG]:7}{told}"
+            )
+        lines.append(f"{'all':48}{total[CHECKED]:9}{total[SEARCH]:8}{total[WRONG]:7}")
+        return "\n".join(lines)
+
+
+def expect(table, kind, place, what, is_right, where, why=""):
+    table.add(kind, place, what, result(is_right, why or "computed again"), where)
+
+
+def classes(pairs):
+    """Number of the class of each model that is in a pair of indistinguishable ones."""
+    parent = {}
+
+    def root(x):
+        while parent.setdefault(x, x) != x:
+            x = parent[x]
+        return x
+
+    for a, b in pairs:
+        parent[root(a)] = root(b)
+    return {x: root(x) for x in list(parent)}
+
+
+def consistent(table, kind, where, verdicts):
+    """Over complex parameters "indistinguishable" is an equivalence: no pair of one class is
+    distinguishable.
+    """
+    of = classes([pair for pair, relation in verdicts.items() if relation == SAME])
+    for (a, b), relation in verdicts.items():
+        if relation == DISTINGUISHABLE and of.get(a, a) == of.get(b, b):
+            expect(
+                table,
+                kind,
+                "classes",
+                "transitivity",
+                False,
+                f"{where} {a} {b}",
+                "distinguishable in one class",
+            )
+    expect(table, kind, "classes", "transitivity", True, where)
+
+
+def chain_record(table, kind, where, r, m):
+    """The line of one chain: parameters, degrees, varying coefficients, rank, and which parameters
+    are free.
+    """
+    x = profile(m)
+    found = (list(x.model.names), x.degrees, len(x.varying), x.full_rank)
+    right = found == (r["parameters"], r["degrees"], r["free"], r["rank"])
+    expect(table, kind, "model", "degrees, rank", right, where)
+    told = r["identifiability"]
+    table.add(
+        kind,
+        "model",
+        "identifiability",
+        searched("numbers of equivalents")
+        if told["rank"] == x.full_rank
+        else Result(WRONG, "rank"),
+        where,
+    )
+
+
+def verdict_of(pair_record):
+    """(slot, part of the record) that decides over complex parameters."""
+    for slot in ("tf", "markov", "structure", "fibre"):
+        if slot in pair_record:
+            yield slot, pair_record[slot]
+
+
+RULES = {
+    "counts": ("1", "2"),
+    "forms": ("3",),
+    "ranks": ("4", "5"),
+    "renaming": ("6",),
+    "free-choice": ("7",),
+    "embedding": ("8",),
+    "supermodel": ("9",),
+}
+
+
+def chain_pair(table, kind, where, r, pair, verdicts):
+    """All evidence of one pair of chains."""
+    shown = set()
+    for slot, told in verdict_of(r):
+        e = told["evidence"]
+        found = evidence(pair, e)
+        relation = told.get("relation", SHOWS.get(e["kind"], SHOWS.get(slot, "")))
+        rules = RULES.get(e["kind"])
+        if rules and told["decided_by"] not in rules:
+            found = Result(WRONG, "another condition than its evidence")
+        if (e["kind"] in SHOWS and relation != SHOWS[e["kind"]]) or (
+            e["kind"] == "theorem" and relation != SAME
+        ):
+            found = Result(WRONG, "a relation that its evidence does not show")
+        if relation == SAME and [x.full_rank for x in sides(pair)][::-1] != [
+            x.full_rank for x in sides(pair)
+        ]:
+            found = Result(WRONG, "the same, with unequal ranks")
+        shown.add(relation)
+        table.add(kind, slot, e["kind"], found, where)
+    if len(shown) > 1:
+        expect(table, kind, "pair", "one answer", False, where, "two answers")
+    verdicts[r["left"], r["right"]] = next(iter(shown), "undecided")
+    for slot in ("left_positive", "right_positive", "real"):
+        if slot in r and (e := r[slot].get("evidence")):
+            found = evidence(pair, e)
+            table.add(kind, slot, e["kind"], found, where)
+    for side in ("closure", "image"):
+        told = r.get("inclusions", {}).get(side, {})
+        if e := told.get("evidence"):
+            found = evidence(pair, e) if e["kind"] != "counts" else counts(pair, e)
+            if side == "closure" and not relation_of_inclusion(pair, e, told["inclusion"]):
+                found = Result(WRONG, "an inclusion that its evidence does not show")
+            table.add(kind, side, e["kind"], found, where)
+
+
+def chains_file(table, name, lines):
+    """chains-*: a line a chain, then a line a pair; all pairs are there."""
+    head, kind, models, verdicts = lines[0], "chains", {}, {}
+    for k, r in enumerate(lines[1:], 2):
+        where = f"{name}:{k}"
+        if "model" in r:
+            models[r["model"]] = m = chain(head["n_masses"], *r["indices"], head["damped"])
+            chain_record(table, kind, where, r, m)
+        else:
+            a, b = models[r["left"]], models[r["right"]]
+            chain_pair(table, kind, where, r, Pair(a, b, f"{a.text} | {b.text}", 1), verdicts)
+    whole = set(combinations(range(1, head["models"] + 1), 2))
+    right = set(verdicts) == whole and len(lines) == 1 + len(models) + len(whole)
+    right = right and set(models.values()) == set(enumerated(head["n_masses"], head["damped"]))
+    expect(table, kind, "file", "all models, pairs", right, name)
+    consistent(table, kind, name, verdicts)
+    return {(n, head["n_masses"]): m for n, m in models.items()}
+
+
+def enumerated(n, damped):
+    """All chains under (36), (37), (38) of the paper, in the order of their numbers."""
+    for gap in range(n):
+        below = range(1, gap + 1) if gap else (0,)
+        for am in below:
+            for ap in range(gap + 1, gap + (n - gap + 1) // 2 + 1):
+                for mm in below:
+                    for mp in range(ap, n + 1):
+                        yield chain(n, gap, am, ap, mm, mp, damped)
+
+
+def sizes_file(table, name, lines):
+    """sizes-*: pairs of two sizes, the smaller chain left."""
+    head, verdicts, models = lines[0], {}, {}
+    for n in head["sizes"]:
+        every = enumerated(n, "undamped" not in name)
+        models |= {f"{n}:{k}": m for k, m in enumerate(every, 1)}
+    for k, r in enumerate(lines[1:], 2):
+        a, b = models[r["left"]], models[r["right"]]
+        pair = Pair(a, b, f"{a.text} | {b.text}", 1)
+        chain_pair(table, "sizes", f"{name}:{k}", r, pair, verdicts)
+    wanted = {(a, b) for a, b in combinations(models, 2) if a[0] < b[0]}
+    expect(table, "sizes", "file", "all pairs", set(verdicts) == wanted, name)
+
+
+def sets_of(n):
+    return [c for k in range(n + 1) for c in combinations(range(1, n + 1), k)]
+
+
+def apart(a, b):
+    """Whether degrees, varying coefficients, ranks or constants tell two models apart."""
+    if (
+        a.degrees != b.degrees
+        or a.model.delay != b.model.delay
+        or (len(a.model.exponents) != len(b.model.exponents))
+    ):
+        return True
+    return a.full_rank != b.full_rank or a.varying != b.varying or a.constants != b.constants
+
+
+def dampers_file(table, name, lines):
+    """dampers-*: for each chain and set of dampers to the ground rank, room and class."""
+    n, damped = int(name.split("-")[1]), "undamped" not in name
+    every = enumerated(n, damped)
+    groups = {}
+    for r, m in zip(lines[1:], every):
+        for k, dampers in enumerate(sets_of(n)):
+            i = indices(m)
+            x = profile(chain(*i[:6], damped, dampers))
+            where = f"{name} {r['model']} {dampers}"
+            expect(table, "dampers", "model", "rank", x.full_rank == r["rank"][k], where)
+            groups.setdefault(r["group"][k], []).append(x)
+    for number_, members in groups.items():
+        first = members[0]
+        for x in members[1:]:
+            found = (
+                Result(WRONG, "told apart by degrees or ranks")
+                if apart(first, x)
+                else searched("same class: found by search, degrees and ranks agree")
+            )
+            table.add("dampers", "class", "indistinguishable", found, f"{name} class {number_}")
+    firsts = [members[0] for members in groups.values()]
+    keys = Counter((tuple(x.degrees), x.full_rank, frozenset(x.varying)) for x in firsts)
+    close, whole = sum(c * (c - 1) // 2 for c in keys.values()), len(firsts)
+    row = table.counts.setdefault(("dampers", "class", "distinguishable", "invariants"), Counter())
+    row[CHECKED] += whole * (whole - 1) // 2 - close
+    row = table.counts.setdefault(
+        ("dampers", "class", "distinguishable", "classes that invariants leave alike"), Counter()
+    )
+    row[SEARCH] += close
+
+
+def chain_text(text):
+    """`5 masses, gap 0, force 1-0, sensor 3-0, damped, ground dampers 1+2` as a chain."""
+    got = re.fullmatch(
+        r"(\d) masses, gap (\d), force (\d)-(\d), sensor (\d)-(\d)(, damped)?"
+        r"(?:, ground dampers ([\d+]+))?",
+        text,
+    )
+    n, gap, ap, am, mp, mm = map(int, got.groups()[:6])
+    dampers = tuple(map(int, got[8].split("+"))) if got[8] else ()
+    return chain(n, gap, am, ap, mm, mp, bool(got[7]), dampers)
+
+
+FINDS = {
+    "solved": "holds",
+    "explicit": "holds",
+    "refuted": "fails",
+    "shared": "fails",
+    "no equivalent": "fails",
+    "inequality": "fails",
+    "witnesses": "sometimes",
+    "of-part": "sometimes",
+}
+
+
+def finding(table, kind, where, told, pair):
+    """[format, word, certainty, safety, evidence or null, reason]."""
+    if e := told[4]:
+        found, core = evidence(pair, e), e
+        while "inner" in core:
+            core = core["inner"]
+        if told[1] != FINDS.get(core["kind"], told[1]):
+            found = Result(WRONG, "a finding that its evidence does not show")
+        table.add(kind, "finding", e["kind"], found, where)
+    elif told[1] != "abandoned":
+        expect(table, kind, "finding", "none", False, where, "no evidence")
+
+
+def settled_file(table, name, lines):
+    for k, r in enumerate(lines, 1):
+        a, b = chain_text(r["left"]), chain_text(r["right"])
+        finding(
+            table, "settled", f"{name}:{k}", r["finding"], Pair(a, b, f"{a.text} | {b.text}", 1)
+        )
+
+
+def network_record(table, kind, where, r):
+    """Rank, and which parameters the response leaves free."""
+    m, told = network(r["network"]), r["identifiability"]
+    x = profile(m, SCALE.get(kind, 1))
+    free = {n for n, level in told["levels"].items() if level == "not identifiable"}
+    if len(m.exponents) > 1 and x.full_rank + len(m.exponents) < told["rank"]:
+        table.add(kind, "model", "rank", searched("two exponents, taken for one"), where)
+        return m
+    right = told["rank"] == x.full_rank + len(m.exponents)
+    right = right and set(told["levels"]) == {*m.names, *m.exponents}
+    right = right and free == {n for n in m.names if x.unseen(n)}
+    expect(table, kind, "model", "rank, free ones", right, where)
+    table.add(kind, "model", "local or global", searched("numbers of equivalents"), where)
+    return m
+
+
+SCALE = {"cells": 2}
+
+
+def networks_file(table, name, lines):
+    """networks-*: a line a network with its class, then a line a pair of one class."""
+    kind, models, groups, verdicts, told = name.split("-")[1], {}, {}, {}, {}
+    scale = SCALE.get(kind, 1)
+    for k, r in enumerate(lines[1:], 2):
+        where = f"{name}:{k}"
+        if "network" in r:
+            models[r["model"]] = network_record(table, kind, where, r)
+            groups[r["model"]] = r["group"]
+            continue
+        key = r["left"], r["right"]
+        a, b = models[key[0]], models[key[1]]
+        pair = Pair(a, b, f"{a.text} | {b.text}", scale)
+        told[key] = r
+        if groups[key[0]] != groups[key[1]] or not groups[key[0]]:
+            expect(table, kind, "pair", "class", False, where, "a pair of two classes")
+        for domain in ("complex", "positive"):
+            if e := r.get(domain, {}).get("evidence"):
+                found = evidence(pair, e)
+                if SHOWS.get(e["kind"], r[domain]["relation"]) != r[domain]["relation"]:
+                    found = Result(WRONG, "a relation that its evidence does not show")
+                table.add(kind, domain, e["kind"], found, where)
+        if "complex" in r:
+            verdicts[key] = r["complex"]["relation"]
+        if "finding" in r:
+            finding(table, kind, where, r["finding"], pair)
+            table.add(*agreement(kind, r), where)
+    for key, r in told.items():
+        if "as" in r:
+            of = tuple(sorted(r["as"]))
+            right = of in told and "as" not in told[of] and groups[of[0]] == groups[key[0]]
+            expect(table, kind, "pair", "as another", right, f"{name} {key}")
+            verdicts.setdefault(key, verdicts.get(of, "missing"))
+    consistent(table, kind, name, verdicts)
+    unlisted(table, kind, name, models, groups, verdicts, scale)
+
+
+def agreement(kind, r):
+    """The verdict over positive parameters is what the finding says."""
+    said = {"holds": SAME, "fails": DISTINGUISHABLE, "sometimes": "sometimes"}
+    wanted = said.get(r["finding"][1])
+    if wanted and r["positive"]["relation"] not in (wanted,):
+        return kind, "positive", "verdict", Result(WRONG, "another one than the finding")
+    return kind, "positive", "verdict", Result(CHECKED, "as the finding says")
+
+
+def unlisted(table, kind, name, models, groups, verdicts, scale):
+    """Pairs that are not there are told apart; pairs of one class are all there."""
+    for a, b in combinations(models, 2):
+        where = f"{name} {a} {b}"
+        if groups[a] and groups[a] == groups[b]:
+            if (a, b) not in verdicts:
+                expect(table, kind, "pair", "class", False, where, "a pair of a class is missing")
+        else:
+            x, y = profile(models[a], scale), profile(models[b], scale)
+            table.add(
+                kind,
+                "unlisted",
+                "",
+                Result(CHECKED, "invariants")
+                if apart(x, y)
+                else searched("degrees, ranks and constants agree"),
+                where,
+            )
+
+
+def candidates_file(table, name, lines):
+    """candidates: models of a fit, and a sign for each pair of them."""
+    models = {}
+    for k, r in enumerate(lines[1:], 2):
+        if "model" in r:
+            m = chain(
+                *r["indices"], r["damped"], tuple(r["ground_dampers"]), r["lag"], r["dead_time"]
+            )
+            models[r["model"]] = x = profile(m)
+            expect(table, "candidates", "model", "rank", x.full_rank == r["rank"], f"{name}:{k}")
+            continue
+        a = models[r["left"]]
+        others = [models[i] for i in range(r["left"] + 1, len(models) + 1)]
+        if len(others) != len(r["relation"]):
+            expect(table, "candidates", "pair", "all pairs", False, f"{name}:{k}", "missing")
+        for b, sign, rule in zip(others, r["relation"], r["decided_by"]):
+            if rule == "1":
+                found = result(a.degrees != b.degrees and sign == ".", "degrees")
+            elif sign == "." and apart(a, b):
+                found = Result(CHECKED, "invariants")
+            else:
+                found = searched("condition 5 or an exact decision, computed on demand")
+            table.add("candidates", "pair", rule, found, f"{name}:{k}")
+
+
+def next_file(table, name, lines):
+    for k, r in enumerate(lines[1:], 2):
+        for kind in ("sensor", "force", "inertia", "lock"):
+            if kind in r:
+                table.add("next", kind, "gains, classes", searched("not repeated"), f"{name}:{k}")
+
+
+def verdict_model(record):
+    """A model of a single verdict file."""
+    if "n_masses" in record:
+        keys = ("n_masses", "gap", "act_minus", "act_plus", "meas_minus", "meas_plus", "damped")
+        order = {"position": 0, "velocity": 1, "acceleration": 2}[record["sensor"]]
+        return chain(
+            *(record[k] for k in keys),
+            tuple(record["ground_dampers"]),
+            record["lag"],
+            record["dead_time"],
+            order,
+        )
+    return network(record["network"] if "network" in record else record["name"])
+
+
+def verdict_file(table, name, told):
+    """`disting compare A B --json FILE`."""
+    try:
+        a, b = map(verdict_model, told["models"])
+        if any(told.get(k) or told["query"].get(k) for k in ("experiments", "also", "places")):
+            raise ValueError("several experiments")
+    except UNREADABLE as why:
+        found = searched(f"not known here: {type(why).__name__} {why}"[:90])
+        return table.add("verdict", "models", "", found, name)
+    half = any(e.kind in "WP" for m in (a, b) for e in m.elements)
+    pair = Pair(a, b, f"{a.text} | {b.text}", 2 if half else 1)
+    for place, part in (("verdict", told), ("over complex", told.get("over_complex") or {})):
+        if e := part.get("evidence"):
+            found = evidence(pair, e)
+            relation = SHOWS.get(e["kind"])
+            if relation and part.get("relation", relation) != relation:
+                found = Result(WRONG, "a relation that its evidence does not show")
+            table.add("verdict", place, e["kind"], found, name)
+    if not table.counts:
+        table.add("verdict", "verdict", "none", searched("no evidence in the file"), name)
+
+
+FILES = {
+    "chains": chains_file,
+    "sizes": sizes_file,
+    "dampers": dampers_file,
+    "settled": settled_file,
+    "networks": networks_file,
+    "candidates": candidates_file,
+    "next": next_file,
+}
+
+
+def check_file(table, path):
+    """All records of one file; a file that cannot be read is wrong."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        if path.suffix == ".json":
+            return verdict_file(table, path.name, json.loads(text))
+        lines = [json.loads(line) for line in text.splitlines()]
+        return FILES[re.match(r"[a-z]+", path.stem)[0]](table, path.name, lines)
+    except UNREADABLE as why:
+        found = Result(WRONG, f"cannot be read: {type(why).__name__} {why}"[:90])
+        table.add("file", "file", "", found, path.name)
+
+
+def main(arguments):
+    table, start = Table(), time.monotonic()
+    for argument in arguments or [str(Path(__file__).parent)]:
+        path = Path(argument)
+        for file in sorted(path.glob("*.jsonl")) if path.is_dir() else [path]:
+            began = time.monotonic()
+            check_file(table, file)
+            print(f"{file.name}: {time.monotonic() - began:.1f} s", file=sys.stderr, flush=True)
+    print(table)
+    print(*table.wrong[:20], sep="\n")
+    print(f"{time.monotonic() - start:.0f} s")
+    return int(bool(table.wrong) or not table.counts)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

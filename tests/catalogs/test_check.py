@@ -1,0 +1,282 @@
+"""`catalog/check.py` accepts what is shipped, and refuses lies: changed, removed, exchanged leaves,
+other names, a relation that does not hold, and what an engine with a fault would write.
+"""
+
+import copy
+import json
+import subprocess
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+
+import pytest
+
+from disting.catalogs.files import shipped_folder
+
+PATH = shipped_folder() / "check.py"
+
+
+@pytest.fixture(scope="module")
+def check():
+    spec = spec_from_file_location("catalog_check", PATH)
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def records(name):
+    text = (shipped_folder() / f"{name}.jsonl").read_text(encoding="utf-8")
+    return [json.loads(line) for line in text.splitlines()]
+
+
+def table_of(check, tmp_path, name, lines):
+    path = tmp_path / f"{name}.jsonl"
+    path.write_text("\n".join(json.dumps(line) for line in lines) + "\n", encoding="utf-8")
+    table = check.Table()
+    check.check_file(table, path)
+    return table
+
+
+def run(*paths):
+    command = [sys.executable, "-I", "-S", str(PATH), *map(str, paths)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_it_needs_nothing_but_python():
+    done = run(shipped_folder() / "chains-2-undamped.jsonl")
+    assert done.returncode == 0, done.stdout
+    assert "free-choice" in done.stdout
+    assert "import disting" not in PATH.read_text(encoding="utf-8")
+
+
+@pytest.mark.thin(1)
+@pytest.mark.parametrize("name", [
+    "chains-2-damped", "chains-3-undamped", "chains-3-damped", "networks-machines-2",
+    "networks-machines-2-damped", "networks-compartments-2", "networks-circuits-4",
+    "dampers-3-damped", "next-3-damped",
+])  # fmt: skip
+def test_what_is_shipped_is_accepted(check, tmp_path, name):
+    table = table_of(check, tmp_path, name, records(name))
+    assert not table.wrong
+    assert sum(row[check.CHECKED] + row[check.SEARCH] for row in table.counts.values()) > 5
+
+
+@pytest.mark.slow
+def test_all_that_is_shipped_is_accepted():
+    done = run(shipped_folder())
+    assert done.returncode == 0, done.stdout
+
+
+def pairs_of(check, name):
+    """(pair, place, its part of the record) of all evidence of pairs of a file."""
+    head, *lines = records(name)
+    models = {}
+    for r in lines:
+        if "network" in r:
+            models[r["model"]] = check.network(r["network"])
+        elif "model" in r:
+            models[r["model"]] = check.chain(head["n_masses"], *r["indices"], head["damped"])
+        elif name.startswith("sizes"):
+            for side in ("left", "right"):
+                n, k = map(int, r[side].split(":"))
+                models[r[side]] = list(check.enumerated(n, "undamped" not in name))[k - 1]
+        if "left" not in r:
+            continue
+        a, b = models[r["left"]], models[r["right"]]
+        pair = check.Pair(a, b, f"{a.text} | {b.text}", 2 if "cells" in name else 1)
+        yield from (
+            (pair, slot, r[slot]["evidence"])
+            for slot in ("tf", "markov", "complex", "real")
+            if r.get(slot, {}).get("evidence")
+        )
+        if r.get("finding", [None] * 5)[4]:
+            yield pair, "finding", r["finding"][4]
+        for side in ("closure", "image"):
+            if r.get("inclusions", {}).get(side, {}).get("evidence"):
+                yield pair, side, r["inclusions"][side]["evidence"]
+
+
+def first_of_each(check, name, kinds):
+    """The first piece of evidence of each of these kinds that the checker confirms."""
+    seen = {}
+    for pair, _, e in pairs_of(check, name):
+        if seen.keys() == kinds:
+            break
+        if e["kind"] in kinds - seen.keys() and check.evidence(pair, e).status == check.CHECKED:
+            seen[e["kind"]] = pair, e
+    return seen
+
+
+def lies(value):
+    """The same with one leaf changed or removed, or two neighbours exchanged."""
+    if isinstance(value, bool):
+        yield not value
+    elif isinstance(value, int):
+        yield value + 1
+    elif isinstance(value, str):
+        yield value + "7"
+    elif isinstance(value, list):
+        for i, item in enumerate(value):
+            yield value[:i] + value[i + 1 :]
+            for lie in lies(item):
+                yield [*value[:i], lie, *value[i + 1 :]]
+    elif isinstance(value, dict):
+        for key, item in value.items():
+            if key != "kind":
+                yield {k: v for k, v in value.items() if k != key}
+                for lie in lies(item):
+                    yield value | {key: lie}
+
+
+# words that prove nothing, and what is as true in another way
+HARMLESS = {"symmetries", "domain", "left_is_submodel"}
+
+
+def accepted_lies(check, pair, e):
+    for lie in lies(e):
+        changed = [k for k in e if lie.get(k) != e[k]]
+        if set(changed) & HARMLESS:
+            continue
+        if check.evidence(pair, lie).status == check.CHECKED:
+            yield {k: lie.get(k) for k in changed}
+
+
+TRUE_LIES = {
+    # fewer coefficients that vary on one side only are still some
+    "forms": lambda change: any(change.values()),
+    # fewer rows may have the same two ranks
+    "ranks": lambda change: set(change) <= {"rows", "all_rows"},
+    "larger-projection": lambda change: set(change) == {"rows"},
+    # another numbering of the same kinds at the same places; the ground is 0 in both
+    "embedding": lambda change: set(change) == {"numbering"},
+    # a positive number before a form
+    "inequality": lambda change: set(change) == {"form"},
+    # a step whose row is the same after it
+    "limit": lambda change: set(change) == {"parts"},
+}
+
+
+@pytest.mark.thin(1)
+@pytest.mark.parametrize(("name", "kinds"), [
+    ("chains-3-undamped", {"counts", "forms", "ranks", "renaming", "free-choice", "full-image",
+                           "relative-degrees", "theorem"}),
+    ("networks-machines-2", {"free-choice", "explicit"}),
+    ("networks-cells-4", {"free-choice", "explicit"}),
+    ("networks-compartments-3", {"solved"}),
+    ("networks-compartments-2", {"renaming"}),
+    ("networks-circuits-5", {"embedding"}),
+    ("networks-machines-3-damped", {"inequality"}),
+    ("sizes-damped", {"counts", "limit", "meeting"}),
+    ("sizes-undamped", {"too-large"}),
+])  # fmt: skip
+def test_no_lie_in_evidence_is_accepted(check, name, kinds):
+    found = first_of_each(check, name, kinds)
+    assert kinds == found.keys()
+    for kind in kinds:
+        pair, e = found[kind]
+        may = TRUE_LIES.get(kind, lambda change: False)
+        accepted = [change for change in accepted_lies(check, pair, e) if not may(change)]
+        assert accepted == [], kind
+
+
+def test_witnesses_that_do_not_fit_are_refused(check):
+    """What is not whole without a search is still compared as far as it is stored."""
+    pairs = pairs_of(check, "networks-compartments-2")
+    pair, _, e = next(x for x in pairs if x[2]["kind"] == "witnesses")
+    assert check.evidence(pair, e).status == check.SEARCH
+    (name, _), *rest = e["point_with"]
+    for lie in ({"point_with": rest}, {"equivalent": e["point_without"][:1] * 3},
+                {"with_left_given": not e["with_left_given"]},
+                {"equivalent": [[n, "-1"] for n, _ in e["equivalent"]]},
+                {"equivalent": [[n, "1e-9"] for n, _ in e["equivalent"]]},
+                {"point_with": [[name, "none"], *rest]}):  # fmt: skip
+        assert check.evidence(pair, e | lie).status == check.WRONG, lie
+
+
+@pytest.mark.parametrize("name", ["chains-2-undamped", "networks-compartments-2"])
+def test_evidence_of_another_pair_is_refused(check, name):
+    """Names replaced by other names: each piece of evidence is put at a pair of other models."""
+    every = list(pairs_of(check, name))
+    strangers = [
+        (pair, e)
+        for (_, _, e), (pair, _, _) in zip(every, every[::-1], strict=True)
+        if e["kind"] in ("counts", "renaming", "explicit")
+    ]
+    wrong = [check.evidence(pair, e).status for pair, e in strangers]
+    assert wrong.count(check.CHECKED) <= len(wrong) // 3  # some are true of the other pair too
+
+
+def changed(lines, at, change):
+    lines = copy.deepcopy(lines)
+    change(lines[at])
+    return lines
+
+
+def at_pair(lines, left, right):
+    return next(k for k, r in enumerate(lines) if (r.get("left"), r.get("right")) == (left, right))
+
+
+RELATION = [
+    ("a pair is missing", lambda lines: lines[:-1]),
+    ("a pair stands twice", lambda lines: [*lines, lines[-1]]),
+    ("a model is another one", lambda lines: changed(
+        lines, 1, lambda r: r.update(indices=[0, 0, 1, 0, 2]))),
+    ("another rank", lambda lines: changed(lines, 1, lambda r: r.update(rank=2))),
+    ("other degrees", lambda lines: changed(lines, 1, lambda r: r.update(degrees=[1, 2]))),
+    ("other parameters", lambda lines: changed(
+        lines, 1, lambda r: r.update(parameters=["m1", "m2", "k01"]))),
+    ("another condition", lambda lines: changed(
+        lines, at_pair(lines, 1, 3), lambda r: r["tf"].update(decided_by="6"))),
+    ("a planted relation", lambda lines: changed(
+        lines, at_pair(lines, 1, 2), lambda r: r.update(tf={
+            "decided_by": "7", "certainty": "proven", "safety": 0,
+            "evidence": {"kind": "free-choice", "rank": 3, "free": ["b0", "b2", "a0"]}}))),
+    ("the reverse inclusion", lambda lines: changed(
+        lines, at_pair(lines, 1, 2), lambda r: r["inclusions"]["closure"].update(
+            inclusion="left-in-right"))),
+    ("evidence that is none", lambda lines: changed(
+        lines, at_pair(lines, 1, 2), lambda r: r["tf"].update(evidence={"kind": "counts"}))),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("what", "lie"), RELATION, ids=[what for what, _ in RELATION])
+def test_lies_of_a_file_are_refused(check, tmp_path, what, lie):
+    lines = records("chains-2-undamped")
+    assert table_of(check, tmp_path, "chains-2-undamped", lie(lines)).wrong, what
+
+
+NETWORKS = [
+    ("another class", lambda lines: changed(lines, 2, lambda r: r.update(group=r["group"] + 1))),
+    ("a pair is missing", lambda lines: lines[:-1]),
+    ("another rank", lambda lines: changed(
+        lines, 1, lambda r: r["identifiability"].update(rank=1))),
+    ("another network", lambda lines: changed(
+        lines, 1, lambda r: r.update(network=lines[6]["network"]))),
+    ("a class of strangers", lambda lines: changed(
+        changed(lines, 1, lambda r: r.update(group=9)), 2, lambda r: r.update(group=9))),
+    ("a verdict that the finding does not give", lambda lines: changed(
+        lines, -1, lambda r: r["positive"].update(relation="distinguishable")
+        if r["finding"][1] == "holds" else r["finding"].__setitem__(1, "holds"))),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("what", "lie"), NETWORKS, ids=[what for what, _ in NETWORKS])
+def test_lies_of_a_family_are_refused(check, tmp_path, what, lie):
+    name = "networks-machines-2-damped"
+    assert table_of(check, tmp_path, name, lie(records(name))).wrong, what
+
+
+def test_a_file_that_is_none_is_wrong(check, tmp_path):
+    path = tmp_path / "chains-2-damped.jsonl"
+    path.write_text("{}\nnone", encoding="utf-8")
+    assert run(path).returncode == 1
+
+
+@pytest.mark.full
+def test_a_single_verdict_is_checked(tmp_path):
+    from disting import verdict_file
+
+    for left, right in (("3:4", "3:5"), ("R1-p(R2,C1)", "p(R1,R2-C1)")):
+        path = tmp_path / "verdict.json"
+        path.write_text(json.dumps(verdict_file(left, right)), encoding="utf-8")
+        done = run(path)
+        assert done.returncode == 0, done.stdout
