@@ -106,11 +106,11 @@ def test_parts_in_the_order_of_the_listing() -> None:
     listed = re.findall(r"^\| \[[^]]+\]\(([\w-]+)\.md\)", TEXTS["index.md"], re.MULTILINE)
     listing = guide_parts(guide_texts())
     assert [title for title, _ in listing] == [
-        "Start",
-        "A measurement",
-        "A model",
-        "Understanding",
-        "For those who work on it",
+        "Tutorials",
+        "How-to guides: measurements",
+        "How-to guides: models",
+        "Explanation",
+        "For developers",
         "Reference",
     ]
     assert [name for _, names in listing for name in names] == listed
