@@ -56,7 +56,6 @@ NOT_YET = frozenset(
         "circuits.md",
         "command-line.md",
         "compared.md",
-        "constant-phase.md",
         "decisions.md",
         "development.md",
         "distinguishable.md",
