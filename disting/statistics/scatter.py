@@ -3,7 +3,7 @@
 sigma_k^2 = E |noise of G_k|^2, and rho_k = sigma_k / (|G_k| sqrt 2) the standard deviation of
 ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put together so:
 
-- one measurement: the sources of noise that a bench has (`line_variance`), their sizes from what
+- one measurement: the sources of noise that a bench has (below), their sizes from what
   neighbouring lines do not predict of each other (`contrasts`); with a coherence its shape
   (1 - g^2) / g^2 |G|^2 instead of these sources;
 - with standard deviations s_k of noise of nu degrees of freedom: the sources fitted to s_k^2, and

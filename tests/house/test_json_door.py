@@ -14,7 +14,7 @@ ROOT = Path(disting.__file__).parent
 # texts that the package alone reads: of its cache, of keys, of comparisons
 WITHIN = {
     "behaviour/profile.py", "catalogs/catalog.py", "catalogs/files.py",
-    "catalogs/network_files.py", "conditions/finding.py", "fit/search/exchange.py",
+    "catalogs/network_files.py", "conditions/rule.py", "fit/search/exchange.py",
     "general/global_identifiability.py", "model/question.py",
     "questions/identifiability/levels.py", "verdict/claim_checks.py", "verdict/engine.py",
     "general/solutions.py", "verdict/verdict_file.py",

@@ -1,7 +1,7 @@
 """Machines outside the candidates, fitted to the data beside a chain of three or four masses.
 
 A chain with force and sensor at mass 1 comes near the response of a drive on an elastic base
-(`near_base`), and of a motor m1 that drives several loads, each a row of masses (a branch). These
+(see below), and of a motor m1 that drives several loads, each a row of masses (a branch). These
 are fitted to the data of the chain, from the values that have its response where nothing is damped:
 
 - base: each mode of the chain may be that of the base;
