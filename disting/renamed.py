@@ -25,10 +25,12 @@ def renamed(**names: str) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """
 
     def decorate(function: Callable[P, T]) -> Callable[P, T]:
+        """Wrap one function."""
         name = function.__name__
 
         @wraps(function)
         def call(*args: P.args, **keywords: P.kwargs) -> T:
+            """Call it with the new names."""
             for old, new in names.items():
                 if old not in keywords:
                     continue

@@ -153,13 +153,7 @@ def estimate(
     exciting = _spectra(excitation, length)
     spacing = rate / length
     if lines is None:
-        chosen = excited_lines(np.abs(exciting.mean(axis=0)))
-        if len(chosen) < FEWEST:
-            raise InputError(
-                f"{plural(len(chosen), 'excited line')} in a period of {length} samples: too few,"
-                f" at least {FEWEST} are needed; where the excitation is no sum of sines, give"
-                " --read segment=SAMPLES for Welch's method"
-            )
+        chosen = _detected(exciting, length)
         notes.append(f"{len(chosen)} excited lines detected in the input")
     else:
         chosen = _given(lines, spacing, exciting.shape[1])
@@ -347,6 +341,18 @@ def _whole_periods(x: Real, period: int, transient: int) -> Real:
 def _spectra(x: Real, period: int) -> Complex:
     """Fourier transforms of the periods, shape (P, period // 2 + 1)."""
     return np.asarray(np.fft.rfft(x.reshape(-1, period), axis=1))
+
+
+def _detected(exciting: Complex, length: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+    """Indices of the excited lines of the spectra of all periods; raises InputError for too few."""
+    chosen = excited_lines(np.abs(exciting.mean(axis=0)))
+    if len(chosen) < FEWEST:
+        raise InputError(
+            f"{plural(len(chosen), 'excited line')} in a period of {length} samples: too few,"
+            f" at least {FEWEST} are needed; where the excitation is no sum of sines, give"
+            " --read segment=SAMPLES for Welch's method"
+        )
+    return chosen
 
 
 def _given(lines: Any, spacing: float, count: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:

@@ -13,7 +13,9 @@ from disting.files import Format, schema
 from disting.fit.judge.admissible import Rule
 from disting.fit.judge.explanation import (
     LARGEST,
+    Explanation,
     Level,
+    Miss,
     chi2,
     explanation,
     systematic_share,
@@ -432,3 +434,21 @@ def test_what_one_line_alone_determines_is_not_foretold_by_the_others():
     (candidate,) = found.candidates
     assert found.explanation.explains
     assert np.abs(candidate.residual).max() > 10 and candidate.missed.max() > 10
+
+
+@pytest.mark.parametrize(
+    ("misses", "level"),
+    [
+        ((), Level.APART),
+        ((Miss(155, 195, 1.5, 3.0, 0.4),), Level.APART),
+        ((Miss(155, 195, 1.5, 0.1, 0.4), Miss(47, 53, 0.1, 0.2, 0.1)), Level.APART),
+        ((Miss(155, 195, 1.5, 0.1, 0.4), Miss(111, 119, 0.1, 3.0, 0.2)), Level.NOT),
+        ((Miss(155, 195, 1.5, 3.0, 0.4, "a"), Miss(111, 119, 1.8, 3.0, 0.2, "b")), Level.APART),
+    ],
+)
+def test_two_ranges_missed_by_as_much_as_the_response_are_not_apart(misses, level):
+    """A drive with backlash and 22 % noise was explained apart from a factor 4 and one of 6."""
+    found = Explanation(
+        1.8, scatter(noisy(EXACT), []), 0.0, misses, chi2_apart=1.5, worst_apart=2.0, lines=100
+    )
+    assert found.size_level is level

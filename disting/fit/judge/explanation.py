@@ -15,7 +15,8 @@ is 1 for the true model and independent of what other candidates do. There are f
   a little that no chain does, and a bench may disturb single lines: a misfit of one line is no more
   a proof against a structure than a gain at one line is one for another (`lone_lines`). Nor may any
   other line be missed by more than noise of that chi2 gives at one of n lines once in 1,000 times:
-  a few lines that are missed by far hide in the mean of many;
+  a few lines that are missed by far hide in the mean of many. Nor may two ranges be missed by as
+  much as the response itself, |G_model / G - 1| >= 1, however large the scatter is;
 - it explains them nearly where chi2 is no larger than that, but what is left hangs together: the
   residuals of neighbouring lines, each counted up to `MOST_OF_A_LINE`, are correlated by more than
   noise gives once in 1,000 times. Disturbed lines and the distortion of a multisine jump from line
@@ -37,6 +38,7 @@ of one to the first of the next. Of one response all this is what `scatter`, `no
 say.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -61,6 +63,8 @@ MOST_OF_A_LINE = 3.0  # in units of what is expected: single lines make no corre
 BESIDE = 6  # neighbours of a line from which its scatter is known
 FEW_CLEAR = 0.2  # share of the lines that must scatter by less than 20 %
 SMOOTHED = 5  # lines over which what is missed is averaged before it is called a range
+# |G_model / G - 1| = 1: twice the amplitude, or an angle of 60 degrees [rad]
+GROSS_FACTOR, GROSS_ANGLE = np.log(2.0), np.pi / 3
 RANGES = 3  # that are named, those that miss most
 
 
@@ -97,6 +101,11 @@ class Miss:
     angle: float
     share: float
     response: str = ""
+
+    @property
+    def is_gross(self) -> bool:
+        """True if the model misses the response by as much as the response itself."""
+        return self.factor >= GROSS_FACTOR or self.angle >= GROSS_ANGLE
 
     @property
     def sentence(self) -> str:
@@ -156,7 +165,11 @@ class Explanation:
         """The level by the size of what is missed alone, whatever it looks like."""
         if self.noisy or self.too_few:
             return Level.NOT
-        return level_of(self.chi2, self.chi2_apart, self.worst_apart, self.scatter)
+        level = level_of(self.chi2, self.chi2_apart, self.worst_apart, self.scatter)
+        gross = Counter(miss.response for miss in self.misses if miss.is_gross)
+        # one place may be disturbed; a model that is elsewhere in two explains nothing apart
+        is_elsewhere = level is Level.APART and max(gross.values(), default=0) > 1
+        return Level.NOT if is_elsewhere else level
 
     @property
     def explains(self) -> bool:

@@ -11,6 +11,7 @@ from disting.fit.judge.candidate import Candidate
 from disting.fit.judge.explanation import STATUS, Explanation, explanations
 from disting.fit.judge.mechanics import Folded, fold
 from disting.fit.judge.members import Member
+from disting.fit.judge.outside import Outside
 from disting.fit.judge.readings import QuantityReading
 from disting.fit.results.reliance import Statement
 from disting.fit.results.selection import Selection, fit_percent
@@ -37,16 +38,7 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
             for a in selection.alternatives
         ],
         "look_alikes": look_alikes_to_dict(selection),
-        "outside": [
-            {
-                "kind": x.kind.value,
-                "name": x.text,
-                "values": dict(x.values),
-                "chi2_per_line": x.chi2,
-                "better": x.is_better,
-            }
-            for x in selection.outside
-        ],
+        "outside": [_outside_to_dict(machine) for machine in selection.outside],
         "not_fitted": [
             {**_named(c), "same_as": _named(other)} for c, other in selection.same_as.items()
         ],
@@ -76,6 +68,16 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
     } | (
         _joint_to_dict(selection) if len(selection.task.cost.parts) > 1 or selection.silent else {}
     )
+
+
+def _outside_to_dict(machine: Outside) -> dict[str, Any]:
+    return {
+        "kind": machine.kind.value,
+        "name": machine.text,
+        "values": dict(machine.values),
+        "chi2_per_line": machine.chi2,
+        "better": machine.is_better,
+    }
 
 
 def _status(selection: Selection) -> str:
