@@ -244,12 +244,18 @@ def test_fit_of_a_branch_names_the_branch(tmp_path):
 
 @pytest.mark.full
 def test_damped_elastic_base_is_fitted_as_a_candidate(tmp_path):
-    """A chain does not explain it and the text names the option; on the base it is selected."""
+    """A chain does not explain it; the base does, with its values, and the text names the option; on
+    the base it is selected.
+    """
     drive = two_masses(1e-3, 2e-3, 300, 0.02) + 1 / (5e-3 * S**2 + 0.3 * S + 2000)
     plain_chains = [Chain(2), Chain(3)]
     text, plain = fitted(tmp_path, drive, plain_chains)
     assert not plain["explained"]
-    assert "no candidate stands on an elastic base; --base adds those" in text
+    assert "outside the candidates this machine explains it: 2 masses on an elastic base" in text
+    assert "next: fit drives on an elastic base too (--base)" in text
+    found = [x["values"] for x in plain["outside"] if x["better"]]  # either resonance is the base's
+    true = {"m1": 1e-3, "m2": 2e-3, "k12": 300, "mb": 5e-3, "kb": 2000}
+    assert any(all(v[n] == pytest.approx(x, rel=0.05) for n, x in true.items()) for v in found)
     text, plain = fitted(tmp_path, drive, [*plain_chains, *on_elastic_bases([Chain(2)])])
     assert plain["explained"]
     assert (plain["selected"]["gap"], plain["selected"]["actuator"]) == (1, [1, 2])
