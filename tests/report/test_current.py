@@ -3,7 +3,6 @@ PNG to the pixel.
 """
 
 import io
-import re
 import shutil
 from pathlib import Path
 
@@ -17,17 +16,12 @@ from disting.catalogs.sizes import sizes_catalog
 from disting.cli.run import parser
 from disting.report import write_report
 from disting.report.write import PAGES
+from tests.report.links import LEFT_OUT
 
 pytestmark = pytest.mark.full
 
 REPORTS = Path(__file__).parents[2] / "reports"
 REMEDY = "run: disting report 1 2 3 4 5"
-# what `reports/.gitignore` leaves to that command
-LEFT_OUT = re.compile(
-    r"models/\d-(?:un)?damped/(?!1\.)\d+\.html|chains-[45]-\w+\.json|chains-5-\w+-matrix\.svg"
-    r"|dampers-5-\w+\.html|(?:motion|next)-[45]-\w+\.html"
-)
-
 NOT_KEPT = [
     f"{kind}-{n}-{damping}.html"
     for kind, sizes in (("dampers", (5,)), ("motion", (4, 5)), ("next", (4, 5)))

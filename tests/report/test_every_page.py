@@ -14,7 +14,7 @@ import pytest
 from disting.files import __version__
 from tests.report.barriers import barriers
 from tests.report.conftest import heard
-from tests.report.links import dead_links, is_there, outline
+from tests.report.links import dead_links, is_there, is_written_later, outline
 from tests.report.page_kinds import LONG, REPORTS, SCHEMES, SHIPPED, SIGHTS, kinds, write_all
 from tests.report.sight import out_of_sight
 from tests.report.test_model_list import HOSTILE
@@ -193,6 +193,12 @@ def test_no_link_of_any_page_is_dead_and_no_name_is_given_twice(site: Path) -> N
         assert list(dead_links(page)) == [], page
         ids = [a["id"] for _, a in outline(page).elements if "id" in a]
         assert len(ids) == len(set(ids)), page
+
+
+def test_a_page_that_is_left_out_is_one_that_the_command_writes() -> None:
+    assert is_written_later("models/3-undamped/11.html") and is_written_later("next-5-damped.html")
+    others = ("models/3-undamped/12.html", "models/3-undamped/1.html", "next-3-damped.html")
+    assert not any(map(is_written_later, others))
 
 
 def test_notebooks_are_listed_where_they_are(site: Path) -> None:
