@@ -304,7 +304,8 @@ def recall_open(family: NetworkFamily, records: Sequence[Record], engine: Engine
     own, count = representatives(sides), 0
     for r in records[1 + len(sides) :] if family.in_brief else ():
         i, j, finding = r["left"] - 1, r["right"] - 1, r.get("finding")
-        if (own[i], own[j]) == (i, j) and finding and finding.note.endswith(WAS_BRIEF):
+        is_open = isinstance(finding, Finding) and finding.note.endswith(WAS_BRIEF)
+        if is_open and (own[i], own[j]) == (i, j):
             engine.remember(BRIEFLY, positive_question(sides[i], sides[j])[1], finding)
             count += 1
     return count

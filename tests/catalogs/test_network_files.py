@@ -16,6 +16,7 @@ from disting.catalogs.network_files import (
     read,
     recall,
     recall_of,
+    recall_open,
 )
 from disting.cli.run import main
 from disting.errors import CatalogError
@@ -44,6 +45,16 @@ QUICK = ("circuits-4", "compartments-2")
 )
 def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine())[0] == []
+
+
+def test_a_verification_takes_over_what_a_brief_search_left_open():
+    family = family_of("machines-3-damped")
+    records = read(shipped_folder() / f"{name_of(family.name)}.jsonl")
+    engine = Engine()
+    count = recall_open(family, records, engine)
+    assert count == 230
+    assert len(engine.answers) == count
+    assert recall_open(replace(family, in_brief=False), records, Engine()) == 0
 
 
 @pytest.mark.full
