@@ -24,9 +24,11 @@ from disting.catalogs.files import (
     read_findings,
     write_provenance,
 )
+from disting.conditions.chain_view import ChainSide, ChainView
 from disting.conditions.inclusion import inclusions_to_dict
 from disting.conditions.rule import Finding, Outcome, Stage
-from disting.conditions.side import AnySide
+from disting.conditions.side import AnySide, Side
+from disting.decide import asking
 from disting.errors import CatalogError
 from disting.evidence.general import without_digits
 from disting.evidence.kinds import evidence_from
@@ -40,7 +42,6 @@ from disting.network.families import NetworkFamily
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.same.evidence_check import Witness, finding_holds
 from disting.questions.same.low_cost import patient_finding
-from disting.verdict.chain_side import ComparedChain
 from disting.verdict.claim_checks import false_of_inclusions
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, map_tasks, silent
@@ -98,7 +99,7 @@ def write(catalogs: list[Catalog], folder: Path) -> list[Path]:
     return [*paths, write_provenance(folder)]
 
 
-def _model(number: int, subject: ComparedChain, identifiability: Identifiability) -> Record:
+def _model(number: int, subject: ChainSide, identifiability: Identifiability) -> Record:
     profile = subject.transfer_profile
     return {
         "model": number,
@@ -190,7 +191,8 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
     """Yield a sentence for each piece of evidence that does not hold."""
     witness = Witness()
     subjects = {
-        number: ComparedChain(f"A{number}", chain) for number, chain in enumerate(stored.family, 1)
+        number: Side(f"A{number}", ChainView(chain))
+        for number, chain in enumerate(stored.family, 1)
     }
     total = len(stored.family) * (len(stored.family) - 1) // 2
     for done, (left, right, _) in enumerate(stored.pairs(View.EXACT), 1):
@@ -213,14 +215,14 @@ def false_evidence(stored: Catalog, progress: Progress = silent) -> Iterator[str
 
 
 def _false_shares(
-    stored: Catalog, subjects: Mapping[int, ComparedChain], left: int, right: int
+    stored: Catalog, subjects: Mapping[int, ChainSide], left: int, right: int
 ) -> Iterator[str]:
     """Of what is known of positive equivalents."""
     v = stored.verdict(left, right, View.EXACT)
     for finding, number, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         if finding is None or finding.evidence is None:
             continue
-        if not subjects[number].proves(subjects[other], finding):
+        if not asking.confirms_share(subjects[number], subjects[other], finding):
             yield (
                 f"{stored.name}, {number}:{other}: the evidence on positive equivalents does not"
                 " hold"
@@ -345,7 +347,7 @@ def _false_of_networks(family: NetworkFamily, records: list[Record], engine: Eng
             evidence = evidence_from(data) if data else None
             if "evidence" not in verdict:
                 evidence = r["finding"].evidence
-            if evidence and not pair[0].confirms(pair[1], evidence, verdict["representation"]):
+            if evidence and not asking.confirms(*pair, evidence, verdict["representation"]):
                 wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
     return wrong
 
@@ -359,8 +361,8 @@ def settle_dampers(
     chains = family.found.chains
     findings, count = read_findings({canonical(chain).chain for chain in chains}, folder), 0
     for low, high in _open(family, findings):
-        side, other = (ComparedChain("", chains[place]) for place in (low, high))
-        first, second = side.pair(other)
+        side, other = (Side("", ChainView(chains[place])) for place in (low, high))
+        first, second = side.view.pair(other.view)
         finding = patient_finding(first, second, settings)
         decided = DECIDES.get(finding.outcome)
         announce(f"{family.pair_text(low, high)}: {decided or finding.note}")

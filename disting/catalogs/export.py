@@ -129,7 +129,7 @@ def decisions_csv(decided: "Decisions") -> str:
 
     def rest(i: int, j: int) -> tuple[Domain, str, str, str, str, str, str]:
         """Domain, image, closure, the positive equivalents of both sides, damping, quantity."""
-        sides = decided.subjects[i].premise, decided.subjects[j].premise
+        sides = decided.subjects[i].view.premise, decided.subjects[j].view.premise
         own_share, other_share = (share_text(decided.shares.get(way)) for way in ((i, j), (j, i)))
         image, closure = (inclusion_text(decided.inclusion(i, j, sense)) for sense in Sense)
         return (

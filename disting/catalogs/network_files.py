@@ -29,7 +29,8 @@ from disting.general.any_model import without_names
 from disting.general.forms import BRIEFLY, WAS_BRIEF, of_equals, of_part
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
-from disting.general.model_side import ComparedModel, positive_question
+from disting.general.network_view import NetworkSide
+from disting.general.over_domain import positive_question
 from disting.general.parts import parts_of
 from disting.general.plain_maps import PLAIN_MAPS
 from disting.general.replacement import replaceable, simplest_network
@@ -44,7 +45,7 @@ MOST = 9  # parameters of networks whose parts are looked at
 
 def search_in_brief(
     engine: Engine,
-    sides: list[ComparedModel],
+    sides: list[NetworkSide],
     over_complex: Decisions,
     executor: Executor | None,
     progress: Progress,
@@ -92,7 +93,7 @@ def _ordered(answers: Mapping[Pair, Finding], i: int, j: int) -> Finding:
 
 
 def _representatives_of_parts(
-    sides: Sequence[ComparedModel], own: Sequence[int]
+    sides: Sequence[NetworkSide], own: Sequence[int]
 ) -> dict[int, list[tuple[Labels, int]]]:
     """Of each network that stands for others: names of elements that can be left out, and the
     network that stands for the rest; of large ones, which have thousands of parts, none.
@@ -108,7 +109,7 @@ def _representatives_of_parts(
 
 
 def _of_parts(
-    sides: Sequence[ComparedModel],
+    sides: Sequence[NetworkSide],
     parts: Mapping[int, Sequence[tuple[Labels, int]]],
     answers: Mapping[Pair, Finding],
     i: int,
@@ -125,7 +126,7 @@ def _of_parts(
                     yield finding
 
 
-def representatives(sides: Sequence[ComparedModel]) -> list[int]:
+def representatives(sides: Sequence[NetworkSide]) -> list[int]:
     """For each the number of the network that stands for it: of those that give the same, one that
     is no chain and a simplest one, if there is one.
     """
@@ -143,7 +144,7 @@ def representatives(sides: Sequence[ComparedModel]) -> list[int]:
     return [first[form or i] for i, form in enumerate(forms)]
 
 
-def _is_searched(sides: Sequence[ComparedModel], i: int, j: int) -> bool:
+def _is_searched(sides: Sequence[NetworkSide], i: int, j: int) -> bool:
     """Whether one of them is no chain: chains have their own ways."""
     return sides[i].chain is None or sides[j].chain is None
 
@@ -218,7 +219,7 @@ def build_networks(
 
 
 def _pairs(
-    engine: Engine, sides: list[ComparedModel], over_complex: Decisions, over_positive: Decisions
+    engine: Engine, sides: list[NetworkSide], over_complex: Decisions, over_positive: Decisions
 ) -> Iterator[Record]:
     """Yield the lines of the pairs that are the same over complex parameters."""
     for i, j in same_pairs(over_complex, len(sides)):
@@ -237,7 +238,7 @@ def _pairs(
         yield record
 
 
-def _short(records: Sequence[Record], sides: Sequence[ComparedModel]) -> Iterator[Record]:
+def _short(records: Sequence[Record], sides: Sequence[NetworkSide]) -> Iterator[Record]:
     """Yield them shorter: what is carried over from another pair says from which, and where it
     differs from that.
     """
@@ -304,8 +305,9 @@ def recall_open(family: NetworkFamily, records: Sequence[Record], engine: Engine
     own, count = representatives(sides), 0
     for r in records[1 + len(sides) :] if family.in_brief else ():
         i, j, finding = r["left"] - 1, r["right"] - 1, r.get("finding")
-        is_open = isinstance(finding, Finding) and finding.note.endswith(WAS_BRIEF)
-        if is_open and (own[i], own[j]) == (i, j):
+        if not isinstance(finding, Finding) or (own[i], own[j]) != (i, j):
+            continue
+        if finding.note.endswith(WAS_BRIEF):
             engine.remember(BRIEFLY, positive_question(sides[i], sides[j])[1], finding)
             count += 1
     return count
@@ -317,7 +319,8 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
     """
     sides, _, records = _known(family, engine, folder)
     (given,) = engine.general_subjects([model])
-    itself = (i for i, s in enumerate(sides, 1) if s.asked_about[0] == given.asked_about[0])
+    form = given.view.asked_about[0]
+    itself = (i for i, s in enumerate(sides, 1) if s.view.asked_about[0] == form)
     like = (i for i, s in enumerate(sides, 1) if replaceable(model, s.subject))
     own = next(chain(itself, like), 0) if records else 0
     for r in records:
@@ -327,7 +330,7 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
         finding = r["finding"] if own == r["left"] else r["finding"].turned
         pair = engine.general_subjects([model, other.subject])
         question, models = positive_question(pair[0], pair[1])
-        if models[0] != sides[own - 1].asked_about[0]:
+        if models[0] != sides[own - 1].view.asked_about[0]:
             if question is PLAIN_MAPS:
                 continue  # the map is one of the other networks
             finding = of_equals(finding, sides[own - 1].name, other.name)
@@ -336,7 +339,7 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
 
 def _known(
     family: str, engine: Engine, folder: Path | None
-) -> tuple[list[ComparedModel], list[Record], list[Record]]:
+) -> tuple[list[NetworkSide], list[Record], list[Record]]:
     """The networks of a family, and the lines of its file on them and on their pairs; none where
     there is none, or where it has other random points: what is known by these is not what is asked.
     """

@@ -32,7 +32,9 @@ from disting.catalogs.files import (
     shipped_folder,
     write_provenance,
 )
+from disting.conditions.chain_view import ChainView
 from disting.conditions.inclusion import inclusions_from_dict, inclusions_to_dict
+from disting.conditions.side import Side
 from disting.errors import CatalogError, InputError
 from disting.evidence.positive import PositiveFinding
 from disting.files import intact_text, write_whole
@@ -45,7 +47,6 @@ from disting.questions.inclusion.confirmation import confirms
 from disting.questions.inclusion.decide import CLOSURE, IMAGE, turn
 from disting.questions.same.evidence_check import Witness
 from disting.questions.same.real_and_positive import POSITIVELY
-from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Query, Relation, Verdict, View
@@ -399,7 +400,8 @@ def verify_sizes(
 def false_evidence(stored: SizesCatalog, progress: Progress = silent) -> Iterator[str]:
     """Yield a sentence for each piece of evidence on two sizes that does not hold."""
     witness, chains = Witness(), stored.family
-    subjects = [ComparedChain(*named) for named in zip(stored.names, chains, strict=True)]
+    named = zip(stored.names, chains, strict=True)
+    subjects = [Side(name, ChainView(chain)) for name, chain in named]
     across = [
         (i, j)
         for i, j in combinations(range(len(chains)), 2)

@@ -29,17 +29,17 @@ def condition_8(left: AnySide, right: AnySide) -> Finding:
     parameters. Submodel means that model structures are identical except for missing elements such
     as springs, dampers and masses."
     """
-    if left.n_elements is None or right.n_elements is None:
+    if left.view.n_elements is None or right.view.n_elements is None:
         return Finding(SUBMODEL, Outcome.INAPPLICABLE, note=NO_ELEMENTS)
-    if left.n_elements == right.n_elements:
+    if left.view.n_elements == right.view.n_elements:
         return Finding(
             SUBMODEL,
             Outcome.INAPPLICABLE,
             note="neither is a submodel: both have equally many elements",
         )
-    left_is_part = left.n_elements < right.n_elements
+    left_is_part = left.view.n_elements < right.view.n_elements
     part, whole = (left, right) if left_is_part else (right, left)
-    numbering = part.part_of(whole)
+    numbering = part.view.part_of(whole.view)
     if numbering is None:
         return Finding(SUBMODEL, Outcome.INAPPLICABLE, note="neither is a submodel of the other")
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
@@ -58,7 +58,7 @@ def condition_9(left: AnySide, right: AnySide) -> Finding:
     number of determinable parameters." The third model has the elements of both; force and sensor
     must be at the same places.
     """
-    a, b = left.structure, right.structure
+    a, b = left.view.structure, right.view.structure
     if a is None or b is None:
         return Finding(SUPERMODEL, Outcome.INAPPLICABLE, note=NO_THIRD)
     if (a.ports, a.sensor_order, a.dead_time) != (b.ports, b.sensor_order, b.dead_time):
@@ -102,7 +102,7 @@ def condition_6(left: AnySide, right: AnySide, exhaustive: bool) -> Finding:
     """
     if not exhaustive:
         return Finding(RENAMING, Outcome.INAPPLICABLE, note=INCOMPLETE)
-    symmetry = left.symmetry_with(right)
+    symmetry = left.view.symmetry_with(right.view)
     if symmetry:
         return Finding(RENAMING, Outcome.HOLDS, Certainty.THEOREM, evidence=symmetry)
     if left.colouring.fingerprint != right.colouring.fingerprint:
@@ -145,7 +145,7 @@ def _searched(left: AnySide, right: AnySide) -> Finding:
     candidates = list(islice(renamings(left.columns, right.columns, len(names[0])), CANDIDATES + 1))
     for images in candidates[:CANDIDATES]:
         renaming = {name: names[1][image] for name, image in zip(names[0], images, strict=True)}
-        if left.is_renamed(right, renaming):
+        if left.view.is_renamed(right.view, renaming):
             return Finding(
                 RENAMING,
                 Outcome.HOLDS,

@@ -96,7 +96,7 @@ _SAME, _CHECK = "questions.same.exact", "questions.same.evidence_check"
 _QUICK, _REAL = "questions.same.low_cost", "questions.same.real_and_positive"
 _SHARE, _SHARED = "questions.positive.shares", "questions.positive.confirmation"
 _UNDER, _MEASURED = "experiments.exact", "experiments.measured_evidence"
-_SIDE, _FORMS, _VALUES = "general.model_side", "general.forms", "general.admissible"
+_OVER, _FORMS, _VALUES = "general.over_domain", "general.forms", "general.admissible"
 _INSIDE, _CONFIRM = "questions.inclusion.decide", "questions.inclusion.confirmation"
 _INSIDE_ALL = "experiments.inclusion"
 _MODELS, _EVIDENCE = "general.any_model", "general.model_evidence"
@@ -159,10 +159,12 @@ SAME_CHAINS = Table(
         Decider(
             name="unequal ranks: condition 4 decides",
             cost=Cost.RANKS,
-            decide="verdict.chain_side:refuse_unequal",
+            decide=f"{_SAME}:refuse_unequal",
         ),
     ),
     note="But for the theorems and the dead time, chains of one size and sensor quantity only.",
+    question=f"{_SAME}:EXACTLY",
+    confirms=f"{_CHECK}:of_sides",
 )
 SAME_CHAINS_QUICKLY = Table(
     Asked.SAME,
@@ -232,6 +234,8 @@ REAL_CHAINS = Table(
             check=f"{_CHECK}:check_odd_fibres",
         ),
     ),
+    answer=f"{_REAL}:of_sides",
+    prepare=f"{_REAL}:prepare",
 )
 POSITIVE_CHAINS = Table(
     Asked.POSITIVE,
@@ -241,7 +245,7 @@ POSITIVE_CHAINS = Table(
         Decider(
             name="the shares of positive models, both ways",
             cost=Cost.SEARCH,
-            decide="conditions.side:by_shares_both_ways",
+            decide="decide.asking:by_shares_both_ways",
             yields=(BothWays,),
             check=f"{_CHECK}:check_both_ways",
         ),
@@ -300,6 +304,9 @@ SHARE_CHAINS = Table(
         ),
     ),
     note="But for the first row, chains without ground dampers and lag only.",
+    question=f"{_REAL}:POSITIVELY",
+    confirms=f"{_SHARED}:proves",
+    is_stated=f"{_INSIDE}:are_of_one_size",
 )
 
 # --- chains under several experiments ---
@@ -328,9 +335,11 @@ SAME_MEASURED = Table(
         Decider(
             name="unequal ranks, degrees or dead times: the conditions decide",
             cost=Cost.RANKS,
-            decide="experiments.machine_side:refuse_unequal",
+            decide=f"{_UNDER}:refuse_unequal",
         ),
     ),
+    question=f"{_UNDER}:EXACTLY",
+    confirms=f"{_MEASURED}:of_sides",
 )
 SAME_MEASURED_QUICKLY = Table(
     Asked.SAME,
@@ -351,11 +360,12 @@ POSITIVE_MEASURED = Table(
         Decider(
             name="the shares of positive models, both ways",
             cost=Cost.SEARCH,
-            decide="conditions.side:by_shares_both_ways",
+            decide="decide.asking:by_shares_both_ways",
             yields=(BothWays,),
             check=f"{_MEASURED}:check_both_ways",
         ),
     ),
+    answer=f"{_UNDER}:over_positive",
 )
 SHARE_MEASURED = Table(
     Asked.SHARE,
@@ -369,6 +379,7 @@ SHARE_MEASURED = Table(
         ),
         Decider("points by lists", Cost.FIBRE, f"{_UNDER}:by_points", (Points,)),
     ),
+    question=f"{_UNDER}:POSITIVELY",
 )
 
 # --- networks and other models; at once: of two sides ---
@@ -376,7 +387,7 @@ SHARE_MEASURED = Table(
 GEARS_ALONE = Decider(
     name="gears as units",
     cost=Cost.CLOSED_FORM,
-    decide=f"{_SIDE}:by_gears",
+    decide=f"{_OVER}:by_gears",
     yields=(Theorem(GEARS),),
     check=f"{_EVIDENCE}:check_gears",
 )
@@ -397,28 +408,31 @@ SAME_NETWORKS = Table(
         Decider(
             name="unequal ranks or degrees: the conditions decide",
             cost=Cost.RANKS,
-            decide=f"{_SIDE}:refuse_unequal",
+            decide=f"{_OVER}:refuse_unequal",
         ),
         Decider(
             name="functions without parameters",
             cost=Cost.CLOSED_FORM,
-            decide=f"{_SIDE}:by_constants",
+            decide=f"{_OVER}:by_constants",
             yields=(Constants,),
             check=f"{_EVIDENCE}:check_constants",
         ),
         Decider(
             name="gears as units",
             cost=Cost.CLOSED_FORM,
-            decide=f"{_SIDE}:same_by_gears",
+            decide=f"{_OVER}:same_by_gears",
             yields=(Theorem(GEARS),),
             check=f"{_EVIDENCE}:check_gears",
         ),
         Decider(
             name="functions with too many terms: left open",
             cost=Cost.CLOSED_FORM,
-            decide=f"{_SIDE}:refuse_large",
+            decide=f"{_OVER}:refuse_large",
         ),
     ),
+    question=f"{_MODELS}:EXACTLY",
+    ground="general.network_view:in_every_order",
+    confirms=f"{_OVER}:confirms",
 )
 NO_CASE = Decider(
     name="no case left: no equivalents",
@@ -467,6 +481,8 @@ REAL_NETWORKS = Table(
     Of.NETWORKS,
     (NO_CASE, COVERING_MAPS, WITNESSES, MAPS, LEFT_OPEN),
     at_once=(GEARS_ALONE,),
+    answer=f"{_OVER}:over_domain",
+    prepare=f"{_OVER}:prepare",
 )
 VALUES_REAL = REAL_NETWORKS
 VALUES_POSITIVE = Table(
@@ -527,14 +543,14 @@ POSITIVE_NETWORKS = Table(
         Decider(
             name="replacement of parts",
             cost=Cost.CLOSED_FORM,
-            decide=f"{_SIDE}:by_replacement",
+            decide=f"{_OVER}:by_replacement",
             yields=(Theorem(REPLACEMENT),),
             check=f"{_EVIDENCE}:check_sets",
         ),
         Decider(
             name="interlacing: undamped trees with one spring to the ground",
             cost=Cost.CLOSED_FORM,
-            decide=f"{_SIDE}:by_interlacing",
+            decide=f"{_OVER}:by_interlacing",
             yields=(Theorem(INTERLACING),),
             check=f"{_EVIDENCE}:check_sets",
         ),
@@ -543,6 +559,8 @@ POSITIVE_NETWORKS = Table(
         "Where a theorem leaves out special values and a brief search finds a map without"
         " exception, the map is the evidence."
     ),
+    answer=f"{_OVER}:over_domain",
+    prepare=f"{_OVER}:prepare",
 )
 
 # --- of unequal rank: limits (CLOSURE) and equivalents (IMAGE) of the model of smaller rank ---
@@ -607,6 +625,9 @@ CLOSURE_CHAINS = Table(
             check=f"{_CONFIRM}:check_profiles",
         ),
     ),
+    answer=f"{_INSIDE}:inclusions",
+    answer_all=f"{_INSIDE}:all_inclusions",
+    confirms=f"{_CONFIRM}:confirms",
 )
 IMAGE_CHAINS = Table(
     Asked.IMAGE,
@@ -716,6 +737,8 @@ CLOSURE_MEASURED = Table(
             check=f"{_MEASURED}:check_profiles",
         ),
     ),
+    answer=f"{_INSIDE_ALL}:of_sides",
+    confirms=f"{_MEASURED}:inclusion_of_sides",
 )
 CLOSURE_NETWORKS = Table(
     Asked.CLOSURE,
@@ -737,6 +760,8 @@ CLOSURE_NETWORKS = Table(
             check="general.model_inclusions:check_profiles",
         ),
     ),
+    answer=f"{_OVER}:inclusions",
+    confirms=f"{_OVER}:includes",
 )
 
 TABLES = (
@@ -762,6 +787,12 @@ TABLES = (
 )
 OF_VERDICTS = (Asked.SAME, Asked.REAL, Asked.POSITIVE)
 OF_INCLUSIONS = (Asked.CLOSURE, Asked.IMAGE, Asked.BOTH)
+
+
+def table_of(asked: Asked, of: Of) -> Table | None:
+    """Return the table by which two sides of a kind are asked a question, None if there is none."""
+    key = asked, of
+    return next((t for t in TABLES if (t.asked, t.of) == key and t.is_asked), None)
 
 
 def deciders_of(of: Of, asked: tuple[Asked, ...] = OF_VERDICTS) -> tuple[Decider, ...]:

@@ -10,6 +10,7 @@ from enum import StrEnum
 from importlib import import_module
 from typing import Any, Protocol, TypeVar
 
+from disting.conditions.side import Of as Of
 from disting.evidence.decision import Theorem
 from disting.model.presentation import summary
 
@@ -24,14 +25,6 @@ class Asked(StrEnum):
     CLOSURE = "limits: generic models of the smaller rank are limits of the other's"
     IMAGE = "equivalents: generic models of the smaller rank have an equivalent in the other"
     BOTH = "limits and equivalents together, where nothing is known of either"
-
-
-class Of(StrEnum):
-    """The kind of models that a table is for."""
-
-    CHAINS = "chains"
-    MEASURED = "chains under several experiments"
-    NETWORKS = "networks and other models"
 
 
 class Cost(StrEnum):
@@ -107,9 +100,15 @@ class Decider:
 class Table:
     """The deciders of one question about models of one kind, in the order in which they are asked.
 
-    `given`: their arguments. `at_once` are asked before a stored answer is looked up, of two sides,
-    and what the first one finds is the answer; `rows` make the answer that is stored. `note`: what
-    a reader should know of the whole.
+    `at_once` are asked before a stored answer is looked up, of two sides, and what the first one
+    finds is the answer; `rows` make the answer that is stored. `note`: what a reader should know of
+    the whole.
+
+    The other fields name functions of two sides (see `decide.asking`). `question`: the stored
+    question; or `answer`: the whole answer, `answer_all`: those of many pairs. `ground(left, right,
+    finding)`: the stored finding on this pair. `prepare(pairs, domain, ask)`: what `answer` needs,
+    computed for many pairs. `confirms`: the check of evidence from a file. `is_stated(left,
+    right)`: True if verdicts state the answer.
     """
 
     asked: Asked
@@ -117,6 +116,13 @@ class Table:
     rows: tuple[Decider, ...]
     at_once: tuple[Decider, ...] = ()
     note: str = ""
+    question: str = ""
+    ground: str = ""
+    answer: str = ""
+    answer_all: str = ""
+    prepare: str = ""
+    confirms: str = ""
+    is_stated: str = ""
 
     def __repr__(self) -> str:
         return summary(self, f"{self.asked}, of {self.of}: {len(self.deciders)} deciders")
@@ -125,6 +131,11 @@ class Table:
     def deciders(self) -> tuple[Decider, ...]:
         """All rows in order."""
         return (*self.at_once, *self.rows)
+
+    @property
+    def is_asked(self) -> bool:
+        """True for a table that two sides are asked by; others are parts of one."""
+        return bool(self.question or self.answer or self.at_once)
 
     def as_text(self) -> str:
         """Return the table for a terminal, a row a line."""

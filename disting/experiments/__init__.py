@@ -2,7 +2,7 @@
 
 `changes` of a machine are of the kinds of one table, `experiment` says how is measured,
 `machine_model` what it reveals, `measured_network` the same of a network, `exact` decides what
-conditions leave open, `machine_side` makes a measured chain a side of a comparison, `places` tells
+conditions leave open, `measured_view` is a measured chain as it is compared, `places` tells
 which mass of one model is which of the other.
 
 >>> from disting import Chain

@@ -56,13 +56,16 @@ from disting.algebra.certainty import (
     safety,
     weakest,
 )
-from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.rule import ADMISSIBLE, EXACT, Finding, Outcome
 from disting.decide import (
     SAME_MEASURED,
     SAME_MEASURED_QUICKLY,
     SHARE_MEASURED,
     first_finding,
 )
+from disting.decide.asking import NOT_KNOWN, by_shares_both_ways, same
+from disting.evidence.conditions import FreeChoice, Renaming
+from disting.evidence.kinds import Evidence
 from disting.evidence.positive import Empirical, OnlyOne, Points, PositiveFinding, Share
 from disting.experiments.equal_machines import same_by_rows
 from disting.experiments.experiment import MeasuredChain
@@ -74,12 +77,13 @@ from disting.experiments.listing import (
     without_dead_time,
 )
 from disting.experiments.maps import match_maps
+from disting.experiments.measured_view import MeasuredSide
 from disting.fibres.ideals import Limits, StackedMap, Terms, decide_matched
 from disting.fibres.ideals.fibre_ideal import draw_point, jacobian
 from disting.fibres.synthesis.decide import point_bits, rational_point, safety_of_point
 from disting.fibres.synthesis.task import Solution
 from disting.model.chain import Chain
-from disting.model.question import Answer, Question, Settings
+from disting.model.question import Answer, Domain, Question, Settings
 from disting.model.symmetry import canonical
 from disting.questions.identifiability.analysis import identifiability
 from disting.questions.same.exact import SAFETY, as_finding
@@ -87,6 +91,7 @@ from disting.questions.same.real_and_positive import positive_share
 
 TRIES = 12  # points
 SCALES = 4  # each coordinate is 2^-4, .., 2^4 times a number between 1/2 and 2
+NOT_COMPARABLE = "ranks, degrees or dead times differ (conditions 2 to 4)"
 NO_LIST = "the equivalents under these experiments cannot be listed"
 ONE_KIND = "all points that were tried are of one kind, and no argument for all of them is known"
 LIMITS = Limits(seconds=600.0, entries=4_000_000, safety=SAFETY)
@@ -280,4 +285,41 @@ def by_small_ideals(left: MeasuredChain, right: MeasuredChain, settings: Setting
 
 QUICKLY = Question(
     "exact decisions under experiments, quickly", quick_finding, Finding.to_json, Finding.from_json
+)
+
+
+def refuse_unequal(left: MeasuredSide, right: MeasuredSide) -> Finding | None:
+    """Not asked of unequal ranks, degrees or dead times."""
+    mine, theirs = left.transfer_profile, right.transfer_profile
+    alike = mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees
+    if alike and left.view.measured.chain.dead_time == right.view.measured.chain.dead_time:
+        return None
+    return Finding(EXACT, Outcome.INAPPLICABLE, note=NOT_COMPARABLE)
+
+
+def over_positive(
+    left: MeasuredSide, right: MeasuredSide, domain: Domain, why: Evidence | None
+) -> Finding:
+    """Return the decision over positive parameters by the shares both ways, no surer than that the
+    models are the same. A renaming is a bijection there too.
+    """
+    if isinstance(why, Renaming):
+        return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_KNOWN.format(domain))
+    finding = by_shares_both_ways(left, right)
+    if finding.outcome is Outcome.ABANDONED or isinstance(why, FreeChoice):
+        return finding
+    equal = same(left, right)
+    grades = (finding.certainty, finding.safety), (equal.certainty, equal.safety)
+    certainty, safety = weakest(*grades)
+    return replace(finding, certainty=certainty, safety=safety)
+
+
+EXACTLY = Question(
+    "exact decisions under experiments", exact_finding, Finding.to_json, Finding.from_json
+)
+POSITIVELY = Question.plain(
+    "positive equivalents under experiments",
+    positive_finding,
+    PositiveFinding.to_dict,
+    PositiveFinding.from_dict,
 )

@@ -13,16 +13,20 @@ all of them together has the larger one.
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 
 from disting.algebra.certainty import Certainty, grade_of
 from disting.behaviour.profile import Profile
+from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
+from disting.conditions.side import AnySide
 from disting.decide import CLOSURE_MEASURED, first_finding
 from disting.evidence.conditions import Counts
 from disting.evidence.limits import LargerProjection, MissingElements
 from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.experiments.machine_model import MachineModel
 from disting.model.kinds import Kind
 from disting.model.minors import embeddings, is_minor, minors
 from disting.questions.inclusion.profiles import (
@@ -56,6 +60,18 @@ def inclusions_under(
     if closure.inclusion is Inclusion.NEITHER:
         return Inclusions(closure, closure)
     return Inclusions(InclusionFinding(Inclusion.UNKNOWN, reason=IMAGE_NOT_ASKED), closure)
+
+
+def of_sides(left: AnySide, right: AnySide) -> Inclusions:
+    """Return both statements on two sides: profiles are those of the coefficients, without
+    dependences.
+    """
+
+    def profile_of(measured: MeasuredChain) -> Profile:
+        settings = replace(left.settings, subset_limit=0)
+        return left.source(MachineModel(measured), Representation.TF, 0, settings)
+
+    return inclusions_under(left.subject, right.subject, profile_of)
 
 
 def numbering(part: MeasuredChain, whole: MeasuredChain) -> dict[int, int] | None:

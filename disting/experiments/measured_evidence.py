@@ -24,6 +24,7 @@ from disting.experiments.inclusion import confirms_missing, numberings
 from disting.experiments.listing import listable, listed_at, without_dead_time
 from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.experiments.maps import match_maps
+from disting.experiments.measured_view import MeasuredSide
 from disting.fibres.ideals import find_again
 from disting.fibres.synthesis.task import fraction
 from disting.model.chain import Chain
@@ -89,6 +90,20 @@ def check_ideal(
     """Solutions put into all functions, contradictions found again."""
     # normalised coordinates are those of a chain alone
     return not evidence.is_normalised and find_again(evidence, *match_maps(left, right))
+
+
+def of_sides(
+    evidence: Evidence, left: MeasuredSide, right: MeasuredSide, representation: str
+) -> bool:
+    """Return True if evidence of a verdict holds for both."""
+    return confirms(evidence, left.subject, right.subject, representation)
+
+
+def inclusion_of_sides(
+    evidence: InclusionEvidence, left: MeasuredSide, right: MeasuredSide
+) -> bool:
+    """Return True if evidence of an inclusion holds for both."""
+    return confirms_inclusion(evidence, left.subject, right.subject)
 
 
 def confirms_inclusion(

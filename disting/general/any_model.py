@@ -23,7 +23,7 @@ from disting.general.expansion import TooLargeError
 from disting.general.matrix_model import AnyModel, MatrixModel, Model, Terms
 from disting.general.powers import Cell, Powers, in_v, out_of_v, separating_weights
 from disting.model.chain import Chain, Sort
-from disting.model.question import Settings
+from disting.model.question import Question, Settings
 from disting.network.chains import RenamedChain, as_renamed_chain
 from disting.network.denotation import Naming, naming_of
 from disting.network.network import Network
@@ -187,6 +187,9 @@ def same(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:
     """The exact decision, for equal ranks and degrees."""
     finding: Finding = first_finding(SAME_NETWORKS.rows, left, right, settings)
     return finding
+
+
+EXACTLY = Question("exact decisions on general models", same, Finding.to_json, Finding.from_json)
 
 
 def by_ideals(left: AnyModel, right: AnyModel, settings: Settings) -> Finding:

@@ -10,12 +10,13 @@ j has a smaller rank. With full column rank all are.
 from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty, grade_of
+from disting.conditions.side import Side
 from disting.errors import of_type
 from disting.general.any_model import cells_of, map_of
 from disting.general.exponents import count_determined, may_be_others
 from disting.general.matrix_model import AnyModel
-from disting.general.model_side import OTHER_ORDER, ComparedModel
 from disting.general.network_model import behaviour_of
+from disting.general.network_view import OTHER_ORDER, NetworkView, other_orders
 from disting.model.presentation import summary
 from disting.model.question import Question, Settings
 from disting.questions.identifiability.levels import (
@@ -115,7 +116,7 @@ def _with_exponents(
         sorted((*names, *powers.unseen)), Level.NOT
     )
     levels |= {names[j]: Level.GLOBAL for j in single}
-    orders = ComparedModel("", model, settings).other_orders
+    orders = other_orders(Side("", NetworkView(model), settings))
     for order, renaming in orders:
         pairs = [*zip(names, order, strict=True), *(renaming.pairs if renaming else ())]
         moved = {a for a, b in pairs if a != b} if renaming else levels.keys()

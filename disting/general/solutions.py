@@ -33,6 +33,7 @@ from flint import fmpz, fmpz_mpoly
 
 from disting.algebra.certainty import Certainty, about, residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
+from disting.conditions.side import Side
 from disting.errors import InputError
 from disting.fibres.ideals.one_value import safety_of_count
 from disting.general.any_model import map_of
@@ -41,7 +42,7 @@ from disting.general.counts import at_roots, count_roots_at, number_of_roots
 from disting.general.elimination import Case, inequalities
 from disting.general.fibre import Extent, solve
 from disting.general.matrix_model import AnyModel
-from disting.general.model_side import ComparedModel
+from disting.general.network_view import NetworkView, other_orders
 from disting.general.orthant import Orthant, TooMuch
 from disting.general.robust import CaseSearch, find_equivalent
 from disting.general.sections import sections
@@ -405,7 +406,7 @@ def _of_exponents(model: AnyModel, settings: Settings) -> OverDomains:
     """Of a model with exponents as parameters: the exchanges that move exponents, too."""
     names = model.powers.exponents
     exchanges = list[Renaming]()
-    for order, renaming in ComparedModel("", model, settings).other_orders:
+    for order, renaming in other_orders(Side("", NetworkView(model), settings)):
         if renaming:
             pairs = [*zip(names, order, strict=True), *renaming.pairs]
             exchanges.append(Renaming(tuple((a, b) for a, b in pairs if a != b), ()))

@@ -12,7 +12,7 @@ from disting.equivalence.reach import REACHED, Reach
 from disting.errors import InputError
 from disting.general import AnyModel, Model, ModelList, without_names
 from disting.general.global_identifiability import IDENTIFIABILITY, GlobalIdentifiability
-from disting.general.model_side import ComparedModel
+from disting.general.network_view import NetworkSide
 from disting.general.special_values import SpecialValues, special_values
 from disting.model.presentation import plural
 from disting.model.question import Domain
@@ -224,7 +224,7 @@ def judge(
 
 
 def _conditions(
-    subjects: Sequence[ComparedModel],
+    subjects: Sequence[NetworkSide],
     over_positive: Decisions,
     engine: Engine,
     executor: Executor | None,

@@ -17,6 +17,16 @@ from disting.conditions.inclusion import Inclusion, Sense
 from disting.conditions.rule import Rule, Stage
 from disting.conditions.side import AnySide, Ask
 from disting.conditions.table import NECESSARY, STRUCTURAL, SUFFICIENT
+from disting.decide.asking import (
+    all_inclusions,
+    has_shares,
+    over_domain,
+    prepare_over_domain,
+    prepare_same,
+    prepare_shares,
+    same,
+    share,
+)
 from disting.model.question import Domain
 from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.cascade import said_of
@@ -49,8 +59,8 @@ def decisions(
             continue
         if stage is Stage.FIBRE:
             if open_pairs.any():
-                subjects[0].prepare_exact(_pairs(result, open_pairs), ask)
-            _each(result, open_pairs, Stage.FIBRE, lambda a, b: a.exact(b))
+                prepare_same(_pairs(result, open_pairs), ask)
+            _each(result, open_pairs, Stage.FIBRE, same)
             continue
         r = Representation(stage)
         asked = open_pairs & _are_asked(stage, subjects)
@@ -70,7 +80,7 @@ def decisions(
 
 def _are_asked(stage: Stage, subjects: Sequence[AnySide]) -> NDArray[np.bool_]:
     """The pairs that have such a summary: Markov parameters are those of functions of s."""
-    asked = np.array([stage is Stage.TF or s.in_s for s in subjects], bool)
+    asked = np.array([stage is Stage.TF or s.view.in_s for s in subjects], bool)
     return np.asarray(asked[:, None] & asked[None, :])
 
 
@@ -91,7 +101,7 @@ def _inclusions(result: Decisions, ask: Ask) -> None:
     ]
     if pairs:
         chosen = [(subjects[i], subjects[j]) for i, j in pairs]
-        findings = subjects[0].all_inclusions(chosen, ask)
+        findings = all_inclusions(chosen, ask)
         result.inclusions.update(zip(pairs, findings, strict=True))
 
 
@@ -102,10 +112,10 @@ def _positive(result: Decisions, ask: Ask) -> None:
     n, subjects = len(result.subjects), result.subjects
     ways = [(i, j) for i in range(n) for j in range(n) if i != j and _is_asked(result, i, j)]
     if ways:
-        subjects[0].prepare_positive([(subjects[i], subjects[j]) for i, j in ways], ask)
+        prepare_shares([(subjects[i], subjects[j]) for i, j in ways], ask)
     for i, j in ways:
         image = result.inclusion(min(i, j), max(i, j), Sense.IMAGE)
-        said = said_of(subjects[i].positive(subjects[j]), image)
+        said = said_of(share(subjects[i], subjects[j]), image)
         if said is not None:
             result.shares[i, j] = said
 
@@ -114,7 +124,7 @@ def _is_asked(result: Decisions, i: int, j: int) -> bool:
     """Whether generic models i may have equivalents j: whether they are such models, or limits of
     them, and it can be asked.
     """
-    if not result.subjects[i].tells_shares(result.subjects[j]):
+    if not has_shares(result.subjects[i], result.subjects[j]):
         return False
     inside = Inclusion.LEFT_IN_RIGHT if i < j else Inclusion.RIGHT_IN_LEFT
     return result.inclusion(min(i, j), max(i, j), Sense.CLOSURE) in (Inclusion.EQUAL, inside)
@@ -123,15 +133,15 @@ def _is_asked(result: Decisions, i: int, j: int) -> bool:
 def _admissible(result: Decisions, ask: Ask) -> None:
     """Ask again about the pairs that are indistinguishable over complex parameters."""
     domain, n = result.query.view.domain, len(result.subjects)
-    same = np.zeros((n, n), bool)
+    alike = np.zeros((n, n), bool)
     for i, j in combinations(range(n), 2):
-        same[i, j] = result.relation(i, j) is Relation.INDISTINGUISHABLE
-    if same.any():
-        result.subjects[0].prepare_admissible(_pairs(result, same), domain, ask)
-    for i, j in zip(*np.nonzero(same), strict=True):
+        alike[i, j] = result.relation(i, j) is Relation.INDISTINGUISHABLE
+    if alike.any():
+        prepare_over_domain(_pairs(result, alike), domain, ask)
+    for i, j in zip(*np.nonzero(alike), strict=True):
         equal = result.equal[int(i), int(j)] = result.steps.pop((int(i), int(j))).finding
         left, right = result.subjects[i], result.subjects[j]
-        finding = left.admissible(right, domain, equal.evidence)
+        finding = over_domain(left, right, domain, equal.evidence)
         step = Step(
             Stage.PARAMETERS, resting_on(finding, (equal.certainty, equal.safety), equal.evidence)
         )

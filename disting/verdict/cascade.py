@@ -18,6 +18,8 @@ from disting.conditions.inclusion import Inclusion, Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT, RULES, Finding, Outcome, Role, Stage
 from disting.conditions.side import AnySide, notes_of
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
+from disting.decide import asking
+from disting.decide.asking import has_shares, inclusions, same, share
 from disting.errors import ContradictionError
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence
@@ -41,13 +43,13 @@ def steps(left: AnySide, right: AnySide, query: Query) -> Iterator[Step]:
     """
     count = query.count(left.n_states + right.n_states)
     for representation in query.view.representations:
-        if representation is Stage.MARKOV and not (left.in_s and right.in_s):
+        if representation is Stage.MARKOV and not (left.view.in_s and right.view.in_s):
             continue
         for condition in CONDITIONS:
             if query.asks(condition.rule):
                 yield from _step(condition, left, right, representation, count)
         if representation is Stage.FIBRE:
-            yield Step(Stage.FIBRE, left.exact(right))
+            yield Step(Stage.FIBRE, same(left, right))
 
 
 def decide(left: AnySide, right: AnySide, query: Query) -> Verdict:
@@ -56,7 +58,7 @@ def decide(left: AnySide, right: AnySide, query: Query) -> Verdict:
     """
     verdict, domain = first(left, right, steps(left, right, query)), query.view.domain
     if query.tells_inclusion:
-        verdict = with_inclusion(verdict, left.rank == right.rank, lambda: left.inclusions(right))
+        verdict = with_inclusion(verdict, left.rank == right.rank, lambda: inclusions(left, right))
         verdict = _with_shares(verdict, left, right)
     if domain is Domain.COMPLEX or verdict.relation is not Relation.INDISTINGUISHABLE:
         return replace(verdict, domain=domain)
@@ -75,9 +77,11 @@ def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | 
     it rests on; without one, what rests on none.
     """
     if equal is None:
-        return left.admissible(right, domain)
+        return asking.over_domain(left, right, domain)
     grade = (equal.certainty or Certainty.NUMERICAL, equal.safety)
-    return resting_on(left.admissible(right, domain, equal.evidence), grade, equal.evidence)
+    return resting_on(
+        asking.over_domain(left, right, domain, equal.evidence), grade, equal.evidence
+    )
 
 
 def follows(v: Verdict, evidence: Evidence, query: Query) -> bool:
@@ -100,14 +104,14 @@ def _with_shares(verdict: Verdict, left: AnySide, right: AnySide) -> Verdict:
     """With the positive equivalents of each side whose generic models are models of the other
     side, or limits of them.
     """
-    if not left.tells_shares(right):
+    if not has_shares(left, right):
         return verdict
     left_asked = verdict.closure in (Inclusion.EQUAL, Inclusion.LEFT_IN_RIGHT)
     right_asked = verdict.closure in (Inclusion.EQUAL, Inclusion.RIGHT_IN_LEFT)
     return replace(
         verdict,
-        left_positive=said_of(left.positive(right), verdict.image) if left_asked else None,
-        right_positive=said_of(right.positive(left), verdict.image) if right_asked else None,
+        left_positive=said_of(share(left, right), verdict.image) if left_asked else None,
+        right_positive=said_of(share(right, left), verdict.image) if right_asked else None,
     )
 
 
@@ -186,7 +190,7 @@ def undecided_verdict(
         relation=Relation.UNDECIDED,
         domain=domain,
         notes=notes,
-        premises=(left.premise, right.premise),
+        premises=(left.view.premise, right.view.premise),
     )
 
 
@@ -206,7 +210,7 @@ def verdict_of(
         evidence=f.evidence,
         domain=domain,
         notes=notes_of(left, right),
-        premises=(left.premise, right.premise),
+        premises=(left.view.premise, right.view.premise),
     )
 
 

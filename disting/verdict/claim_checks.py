@@ -12,6 +12,7 @@ from disting.algebra.certainty import Certainty
 from disting.conditions.inclusion import ONE_SIDED, Inclusion, InclusionFinding, Inclusions
 from disting.conditions.rule import ADMISSIBLE, EXACT, Finding
 from disting.conditions.side import AnySide, notes_of
+from disting.decide import asking
 from disting.evidence.general import without_digits
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import BothWays
@@ -57,7 +58,7 @@ def _unfounded(claim: Claim) -> Iterator[str]:
 
 def _untrue(claim: Claim) -> Iterator[str]:
     v, left, right = claim.verdict, claim.sides.left, claim.sides.right
-    if v.evidence is not None and not left.confirms(right, v.evidence, v.representation):
+    if v.evidence is not None and not asking.confirms(left, right, v.evidence, v.representation):
         yield f"{claim.where}the evidence is not true of these models"
 
 
@@ -81,7 +82,7 @@ def _again(claim: Claim, evidence: Evidence) -> Claimed | None:
     if v.decided_by not in (EXACT.name, ADMISSIBLE.name):
         return _condition_again(claim) if v.decided_by in claim.query.conditions else None
     finding = (
-        claim.sides.left.recheck(claim.sides.right, evidence)
+        asking.same_again(claim.sides.left, claim.sides.right, evidence)
         if v.decided_by == EXACT.name
         else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
     )
@@ -122,7 +123,7 @@ def _false_inclusions(claim: Claim) -> Iterator[str]:
         return
     for what in false_of_inclusions(both, left, right):
         yield f"{where}{what} is not true of these models"
-    if _plain(both) != _plain(left.inclusions(right)):
+    if _plain(both) != _plain(asking.inclusions(left, right)):
         yield f"{where}the inclusion, or its certainty, is not what the settings give"
 
 
@@ -136,7 +137,7 @@ def false_of_inclusions(both: Inclusions | None, left: AnySide, right: AnySide) 
         else {both.image.evidence: "finite elements", both.closure.evidence: "limits"}
     )
     for evidence, what in statements.items():
-        if evidence is not None and not left.includes(right, evidence):
+        if evidence is not None and not asking.includes(left, right, evidence):
             yield f"the evidence of the inclusion ({what})"
 
 
@@ -165,11 +166,11 @@ def _false_shares(claim: Claim) -> Iterator[str]:
     for share, side, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         if share is None:
             continue
-        if not left.tells_shares(right):
+        if not asking.has_shares(left, right):
             yield f"{where}positive equivalents are told of models of which they are not asked"
-        elif share.evidence is not None and not side.proves(other, share):
+        elif share.evidence is not None and not asking.confirms_share(side, other, share):
             yield f"{where}the evidence on positive equivalents is not true of these models"
-        elif share != side.positive(other):
+        elif share != asking.share(side, other):
             yield f"{where}what is told of positive equivalents is not what the settings give"
 
 

@@ -29,6 +29,7 @@ import numpy as np
 from disting.algebra.certainty import Certainty
 from disting.behaviour.profile import NoMatroid, Profile
 from disting.behaviour.sample import Representation
+from disting.conditions.chain_view import ChainSide
 from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.conditions.table import NECESSARY
 from disting.errors import ContradictionError, InputError
@@ -37,7 +38,6 @@ from disting.model.protocol import Model
 from disting.model.question import Question
 from disting.questions.same.low_cost import INVERSELY, QUICKLY
 from disting.verdict.buckets import NOT_KNOWN, Buckets
-from disting.verdict.chain_side import ComparedChain
 from disting.verdict.classes import Classes, without_dampers
 from disting.verdict.engine import Engine, Progress, silent
 
@@ -102,7 +102,7 @@ class _Work:
     """Canonical subjects in buckets and classes, and what else is known of each."""
 
     engine: Engine
-    subjects: list[ComparedChain]
+    subjects: list[ChainSide]
     place: list[int]
     buckets: Buckets
     renamed: list[int]
@@ -114,9 +114,7 @@ class _Work:
     def of(chains: Sequence[Chain], engine: Engine) -> "_Work":
         """Nothing is known yet but the canonical forms."""
         numbers: dict[Chain, int] = {}
-        place = [
-            numbers.setdefault(engine.subject("", c).canonical.chain, len(numbers)) for c in chains
-        ]
+        place = [numbers.setdefault(engine.subject("", c).view.form, len(numbers)) for c in chains]
         subjects, n = [engine.subject(f"form {i}", c) for c, i in numbers.items()], len(numbers)
         unions = {
             (without_dampers(c), frozenset(c.ground_dampers)): i
@@ -137,7 +135,7 @@ class _Work:
     ) -> dict[int, Profile]:
         """Profiles of the wanted subjects."""
         chosen = list(wanted)
-        models: set[Model] = {self.subjects[i].profiled for i in chosen}
+        models: set[Model] = {self.subjects[i].view.profiled for i in chosen}
         self.engine.prefetch(models, r, count, executor, progress)
         return {i: self.subjects[i].profile(r, count) for i in chosen}
 
@@ -164,7 +162,7 @@ class _Work:
 
     def take_over(self, settled: Findings) -> None:
         """What is settled of canonical forms that are here."""
-        at = {s.canonical.chain: i for i, s in enumerate(self.subjects)}
+        at = {s.view.form: i for i, s in enumerate(self.subjects)}
         for (first, second), finding in settled.items():
             if first in at and second in at:
                 self.take(at[first], at[second], finding)
@@ -237,7 +235,7 @@ def _decide(
 ) -> None:
     """Ask about all open pairs of representatives, and take over what is decided."""
     pairs = work.open_pairs()
-    asked = [work.subjects[i].pair(work.subjects[j]) for i, j in pairs]
+    asked = [work.subjects[i].view.pair(work.subjects[j].view) for i, j in pairs]
     work.engine.answer_all(question, asked, executor=executor, progress=progress)
     for (i, j), chains in zip(pairs, asked, strict=True):
         work.take(i, j, work.engine.answer(question, chains, work.engine.settings))

@@ -17,21 +17,18 @@ from disting.algebra.certainty import Certainty
 from disting.algebra.determinants import OutOfTimeError
 from disting.behaviour.transfer import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
-from disting.conditions.side import AnySide
+from disting.conditions.side import AnySide, Of
 from disting.errors import InputError, of_type, short
 from disting.evidence.conditions import Ranks
 from disting.experiments.experiment import Experiment
 from disting.experiments.measured_network import measure
 from disting.general import AnyModel, MatrixModel, Model
-from disting.general.model_side import ComparedModel
 from disting.model.chain import Chain, Sensor, Structure, as_sensor
 from disting.model.names import read_together
 from disting.model.question import Domain
-from disting.model.symmetry import canonical
 from disting.questions.identifiability import Identifiability, ParameterIdentifiability
 from disting.renamed import renamed
 from disting.verdict.cascade import steps
-from disting.verdict.chain_side import ComparedChain
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.identifiable import identify, identify_measured
@@ -114,11 +111,11 @@ def _claim(verdict: Verdict, left: AnySide, right: AnySide) -> Claim | None:
         return None
     smaller = left if evidence.left < evidence.right else right
     rows = () if evidence.all_rows else evidence.rows
-    if isinstance(smaller, ComparedChain):
+    if smaller.view.of is Of.CHAINS:
         # of several experiments, not of these chains
         several = any("[" in row for row in evidence.rows)
-        model: Structure | AnyModel = canonical(smaller.chain).chain.structure
-    elif isinstance(smaller, ComparedModel):
+        model: Structure | AnyModel = smaller.view.form.structure
+    elif smaller.view.of is Of.NETWORKS:
         # single invariants of several transfer functions, or before G0
         several = any("[" in row or "-" in row for row in rows)
         several = several or bool(smaller.subject.powers.weights)  # exponents were drawn at random

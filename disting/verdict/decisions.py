@@ -243,5 +243,5 @@ def markov_count(r: Representation, query: Query, subjects: Sequence[AnySide]) -
     """Markov parameters after G_0: as asked, or twice the number of states of the largest
     model, enough for every pair.
     """
-    largest = max((s for s in subjects if s.in_s), key=lambda s: s.n_states, default=None)
+    largest = max((s for s in subjects if s.view.in_s), key=lambda s: s.n_states, default=None)
     return 0 if r is Representation.TF or largest is None else query.count(2 * largest.n_states)

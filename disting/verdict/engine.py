@@ -35,14 +35,14 @@ from disting.store.store import Store, digest
 from disting.verdict.result import Query, Verdict
 
 if TYPE_CHECKING:
+    from disting.conditions.chain_view import ChainSide
     from disting.conditions.side import AnySide
     from disting.experiments.experiment import MeasuredChain
-    from disting.experiments.machine_side import ComparedMachine
+    from disting.experiments.measured_view import MeasuredSide
     from disting.general.matrix_model import AnyModel
-    from disting.general.model_side import ComparedModel
+    from disting.general.network_view import NetworkSide
     from disting.network.network import Network
     from disting.questions.identifiability.answer import Identifiability
-    from disting.verdict.chain_side import ComparedChain
     from disting.verdict.decisions import Decisions
 
 T = TypeVar("T")
@@ -76,26 +76,28 @@ class Engine:
     def __repr__(self) -> str:
         return summary(self, f"seed {self.settings.seed!r}, {self.store!r}")
 
-    def subject(self, name: str, chain: Chain, note: str = "") -> ComparedChain:
+    def subject(self, name: str, chain: Chain, note: str = "") -> ChainSide:
         """A side of a comparison whose profiles come from this engine; `note` says what its
         parameters are called in the network that it is.
         """
-        from disting.verdict.chain_side import ComparedChain
+        from disting.conditions.chain_view import ChainView
+        from disting.conditions.side import Side
 
-        return ComparedChain(name, chain, self.settings, self.profile, self.answer, note)
+        return Side(name, ChainView(chain, note), self.settings, self.profile, self.answer)
 
     def general_subjects(
         self,
         models: Sequence[AnyModel | Network],
         names: Sequence[str] = (),
         experiments: Sequence[tuple[str, ...]] = (),
-    ) -> list[ComparedModel]:
+    ) -> list[NetworkSide]:
         """The same for general models and networks that are compared with each other, all in one
         variable; `experiments` in words that each is the transfer functions of, none: as it is.
         """
+        from disting.conditions.side import Side
         from disting.general.any_model import as_model, on_one_variable
-        from disting.general.model_side import ComparedModel
         from disting.general.network_model import behaviour_of
+        from disting.general.network_view import NetworkView
         from disting.general.readings import normalise
 
         def profile_of(model: AnyModel) -> Profile:
@@ -107,18 +109,19 @@ class Engine:
         ways = experiments or [()] * len(matched)
         named = zip(names or [m.name for m in models], matched, ways, strict=True)
         return [
-            ComparedModel(name, model, self.settings, self.profile, self.answer, way)
+            Side(name, NetworkView(model, way), self.settings, self.profile, self.answer)
             for name, model, way in named
         ]
 
-    def measured_subject(self, name: str, measured: MeasuredChain) -> ComparedMachine:
+    def measured_subject(self, name: str, measured: MeasuredChain) -> MeasuredSide:
         """The same for a chain under several experiments. Raises InputError for one with a damper
         across the gap.
         """
-        from disting.experiments.machine_side import ComparedMachine
+        from disting.conditions.side import Side
+        from disting.experiments.measured_view import MeasuredView
 
         refuse_gap_damper(measured.chain)
-        return ComparedMachine(name, measured, self.settings, self.profile, self.answer)
+        return Side(name, MeasuredView(measured), self.settings, self.profile, self.answer)
 
     def profile(
         self, what: Model, representation: Representation, count: int, settings: Settings
@@ -180,14 +183,14 @@ class Engine:
 
         def prefetch(wanted: Sequence[AnySide], r: Representation, count: int) -> None:
             """Have the profiles of these models computed, many at a time."""
-            self.prefetch({s.profiled for s in wanted}, r, count, executor, progress)
+            self.prefetch({s.view.profiled for s in wanted}, r, count, executor, progress)
 
         def ask(question: Question[Any], pairs: Sequence[Models]) -> None:
             """Have the question answered for these pairs, many at a time."""
             self.answer_all(question, pairs, executor=executor, progress=progress)
 
         chains = {
-            place: self.subject(s.name, s.chain, s.chain_note)
+            place: self.subject(s.name, s.chain, s.view.chain_note(s.name))
             for place, s in enumerate(subjects)
             if s.chain is not None and s.chain is not s.subject
         }
@@ -212,7 +215,7 @@ class Engine:
         """
         r = Representation.MARKOV if markov else Representation.TF
         subjects = [self.subject("", chain) for chain in chains]
-        profiled: set[Model] = {s.profiled for s in subjects}
+        profiled: set[Model] = {s.view.profiled for s in subjects}
         self.prefetch(profiled, r, markov, executor, progress)
         return [s.profile(r, markov) for s in subjects]
 

@@ -34,18 +34,18 @@ from disting.behaviour.sample import Representation
 from disting.conditions.rule import FREE_CHOICE, RENAMING, Outcome
 from disting.conditions.sufficient import condition_7
 from disting.conditions.table import NECESSARY
+from disting.decide.asking import resting_on_ranks
 from disting.errors import InputError
 from disting.experiments.equal_machines import standard
 from disting.experiments.exact import QUICKLY
 from disting.experiments.experiment import MeasuredChain, places_of
-from disting.experiments.machine_side import ComparedMachine
 from disting.experiments.measured_network import further_model
+from disting.experiments.measured_view import MeasuredSide
 from disting.experiments.menu import Gain, Item, gain, measure_with
 from disting.model.chain import Chain
 from disting.model.kinds import Kind
 from disting.network.chains import of_chain
 from disting.network.network import Network
-from disting.questions.same.exact import resting_on_ranks
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.placement_record import REPEATS, TESTS, Placement, Spot, SpotClasses, SpotPairs
@@ -107,7 +107,8 @@ def _place_chains(
 ) -> Placement:
     work = _Work.of(chains, kind, engine)
     new = [s for s, g in enumerate(work.gains) if g is Gain.NEW]
-    engine.prefetch({work.sides[s].profiled for s in new}, Representation.TF, 0, executor, progress)
+    models = {work.sides[s].view.profiled for s in new}
+    engine.prefetch({*models}, Representation.TF, 0, executor, progress)
     profiles = {s: work.sides[s].profile(Representation.TF, 0) for s in new}
     work.buckets.split(profiles, NECESSARY, 1)
     work.safeties += [p.safety for p in profiles.values()]
@@ -123,7 +124,7 @@ class _Work:
 
     engine: Engine
     spots: list[Spot]
-    sides: list[ComparedMachine]
+    sides: list[MeasuredSide]
     gains: list[Gain]
     buckets: Buckets
     links: list[str]
@@ -136,7 +137,7 @@ class _Work:
         """Only what is gained is known."""
         spots = [(k, i) for k, chain in enumerate(chains) for i in places_of(chain)]
         sides, gains, firsts = [], [], []
-        by_form: dict[MeasuredChain, ComparedMachine] = {}
+        by_form: dict[MeasuredChain, MeasuredSide] = {}
         for k, i in spots:
             form = standard(measure_with(chains[k], Item(kind, i)))
             name = f"structure {k}, mass {i}"
@@ -206,7 +207,7 @@ class _Work:
 
     def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
         """Both machines, in an order that does not depend on that of the structures."""
-        low, high = sorted((self.sides[s].measured for s in (a, b)), key=full_text)
+        low, high = sorted((self.sides[s].view.measured for s in (a, b)), key=full_text)
         return low, high
 
     def _members(self, roots: Iterable[int]) -> list[int]:

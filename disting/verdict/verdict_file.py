@@ -181,7 +181,7 @@ def difference(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> str
     verdicts = [v for v in (stored.verdict, stored.over_complex) if v is not None]
     if any((v.left, v.right) != (sides.left.name, sides.right.name) for v in verdicts):
         fields.append("names")
-    if any(v.premises != (sides.left.premise, sides.right.premise) for v in verdicts):
+    if any(v.premises != (sides.left.view.premise, sides.right.view.premise) for v in verdicts):
         fields.append("damping, quantity and experiments")
     return ", ".join(fields)
 

@@ -19,6 +19,7 @@ from disting.catalogs.network_files import (
     recall_open,
 )
 from disting.cli.run import main
+from disting.decide import asking
 from disting.errors import CatalogError
 from disting.evidence.general import OfPart
 from disting.evidence.kinds import evidence_from
@@ -26,7 +27,7 @@ from disting.files import shipped_folder
 from disting.general.any_model import of_network, without_names
 from disting.general.forms import BRIEFLY, WAS_BRIEF
 from disting.general.identifiability import PARAMETERS
-from disting.general.model_side import positive_question
+from disting.general.over_domain import positive_question
 from disting.general.plain_maps import PLAIN_MAPS
 from disting.network.families import family_of
 from disting.network.notation import network_of
@@ -175,7 +176,7 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
         left, right = sides[r["left"] - 1], sides[r["right"] - 1]
         evidence = r["finding"].evidence if "finding" in r else None
         evidence = evidence or evidence_from(r["positive"]["evidence"])
-        assert left.confirms(right, evidence, r["positive"]["representation"])
+        assert asking.confirms(left, right, evidence, r["positive"]["representation"])
 
 
 def test_what_a_theorem_tells_is_written_beside_an_open_search():
@@ -245,7 +246,7 @@ def test_a_network_of_a_family_in_any_numbers_is_looked_up(text):
     for x in found:
         left, right = engine.general_subjects([given, x.model])
         evidence = x.verdict.evidence
-        assert evidence is None or left.confirms(right, evidence, x.verdict.representation)
+        assert evidence is None or asking.confirms(left, right, evidence, x.verdict.representation)
 
 
 def lied(record):

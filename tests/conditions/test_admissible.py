@@ -27,6 +27,7 @@ from disting.catalogs.build import build, false_evidence
 from disting.catalogs.export import decisions_csv
 from disting.conditions.inclusion import Inclusion
 from disting.conditions.rule import positive_ways
+from disting.decide import asking
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import (
     BothWays,
@@ -320,8 +321,8 @@ def test_odd_fibres_rest_on_the_finding_over_complex_parameters():
     family = Family(3, damped=False)
     finding = by_counts(*(identifiability(family[k]) for k in (1, 11)))
     assert (finding.outcome, finding.evidence) == (Outcome.HOLDS, OddFibres(1, 1))
-    over = (
-        Engine().subject("a", family[1]).admissible(Engine().subject("b", family[11]), Domain.REAL)
+    over = asking.over_domain(
+        Engine().subject("a", family[1]), Engine().subject("b", family[11]), Domain.REAL
     )
     assert (over.certainty, over.evidence, resting_on(over, (Certainty.BOUNDED, 120))) == (
         Certainty.THEOREM,

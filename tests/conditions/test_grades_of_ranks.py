@@ -11,11 +11,13 @@ from disting.algebra.certainty import LEAST_SAFETY, USELESS, Certainty, joint_sa
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.rule import EXACT, Finding
+from disting.decide import asking
+from disting.decide.asking import resting_on_ranks
 from disting.general.any_model import same
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import Model
 from disting.model.question import Settings
-from disting.questions.same.exact import by_synthesis, resting_on_ranks
+from disting.questions.same.exact import by_synthesis
 from disting.verdict.joint import family_safety, joint_in_words
 from disting.verdict.result import error_bound
 from tests.conditions.handmade import handmade
@@ -38,8 +40,8 @@ def test_equal_closures_of_chains_count_both_ranks():
     )
     profiles = [s.profile(Representation.TF, 0) for s in (left, right)]
     assert not any(p.rank_proven for p in profiles)
-    fibre = by_synthesis(left.canonical.chain, right.canonical.chain, Settings())
-    for found in (left.exact(right), right.exact(left)):
+    fibre = by_synthesis(left.view.form, right.view.form, Settings())
+    for found in (asking.same(left, right), asking.same(right, left)):
         assert fibre.outcome is found.outcome is Outcome.HOLDS and found.safety >= LEAST_SAFETY
         assert sum_of(found.safety) >= sum_of(fibre.safety, *(p.safety for p in profiles))
 

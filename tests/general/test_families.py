@@ -18,7 +18,7 @@ from disting import (
     catalog,
     compare,
 )
-from disting.general.model_side import ComparedModel
+from disting.general.network_view import NetworkView
 from tests.oracles.plain_chains import plain_state_space
 
 ENTRIES = {
@@ -78,7 +78,7 @@ def test_verdicts_that_contradict_a_class_are_refused():
     with Store.open(":memory:") as store:
         found = decided(store, View.EXACT)
     found.steps.pop((0, 3))  # without its finding a decided pair counts as distinguishable
-    assert isinstance(found.subjects[0], ComparedModel)
+    assert isinstance(found.subjects[0].view, NetworkView)
     with pytest.raises(ContradictionError, match="two leaks and sum are one group"):
         found.classes()
 

@@ -23,12 +23,14 @@ from disting import (
 from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.rule import ADMISSIBLE, Finding, Outcome
+from disting.conditions.side import Side
+from disting.decide.asking import over_domain
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import is_renamed
 from disting.general.behaviour import GeneralModel
 from disting.general.identifiability import local_identifiability
 from disting.general.matrix_model import Model
-from disting.general.model_side import ComparedModel
+from disting.general.network_view import NetworkView
 from disting.model.question import Settings
 
 COMPLEX = Query(View.EXACT)  # the paper's domain
@@ -226,8 +228,8 @@ def test_names_that_look_like_places_for_names_stay_as_they_are():
         return Finding(ADMISSIBLE, Outcome.ABANDONED, note="at no points of {left} and of {right}")
 
     sides = [
-        ComparedModel(name, model, answerer=answerer)
+        Side(name, NetworkView(model), answerer=answerer)
         for name, model in (("{right}", IRREVERSIBLE), ("{left}", REVERSIBLE))
     ]
-    found = sides[0].admissible(sides[1], Domain.REAL)
+    found = over_domain(sides[0], sides[1], Domain.REAL)
     assert found.note == "at no points of {right} and of {left}"

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given
 
 from disting import ContradictionError, Family, Query, Relation, View
+from disting.conditions.chain_view import ChainView
+from disting.conditions.side import Side
 from disting.verdict.cascade import audit, decide
-from disting.verdict.chain_side import ComparedChain
 from tests.laws.pairs import (
     ENGINE,
     PAPER,
@@ -49,8 +50,8 @@ def test_no_condition_contradicts_another_for_any_pair(pair):
 def test_a_contradiction_is_an_error(reverse):
     """One model with two profiles: condition 4 tells it from itself, condition 6 does not."""
     chain = Family(3, damped=True)[1]
-    false = ComparedChain(
-        "false", chain, source=lambda *what: replace(ENGINE.profile(*what), rank=6)
+    false = Side(
+        "false", ChainView(chain), source=lambda *what: replace(ENGINE.profile(*what), rank=6)
     )
     pair = (false, subject(chain)) if reverse else (subject(chain), false)
     assert decide(*pair, PAPER).decided_by == "4"

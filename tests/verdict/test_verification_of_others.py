@@ -21,6 +21,7 @@ from disting import (
     everywhere_file,
     verify,
 )
+from disting.decide import asking
 from disting.errors import NotSeenError
 from disting.evidence.kinds import evidence_from
 from disting.general import model_evidence
@@ -223,7 +224,7 @@ def test_an_equivalent_is_written_as_it_is_rounded_each_value_once(lie: Callable
     altered = put(evidence, ("equivalent",), lie(evidence["equivalent"]))
     assert found_out(told_again(data, evidence=altered))
     sides = read_file(data).sides(ENGINE)
-    assert not sides.left.confirms(sides.right, evidence_from(altered), "parameters")
+    assert not asking.confirms(sides.left, sides.right, evidence_from(altered), "parameters")
 
 
 @pytest.mark.parametrize(
@@ -269,8 +270,8 @@ def test_evidence_is_looked_at_wholly_without_the_rest_of_the_file(what: str) ->
     stored = read_file(plain(*case[:2], **case[2]))
     sides, verdict = stored.sides(ENGINE), stored.verdict
     evidence, representation = verdict.evidence, verdict.representation
-    assert sides.left.confirms(sides.right, evidence, representation)
-    assert not sides.left.confirms(sides.right, altered(evidence), representation)
+    assert asking.confirms(sides.left, sides.right, evidence, representation)
+    assert not asking.confirms(sides.left, sides.right, altered(evidence), representation)
 
 
 @pytest.mark.full

@@ -34,7 +34,7 @@ from disting.verdict.engine import Engine
 from disting.verdict.result import Query, Relation, View
 
 if TYPE_CHECKING:  # a side is made by the engine, where a verdict is not shipped
-    from disting.verdict.chain_side import ComparedChain
+    from disting.conditions.chain_view import ChainSide
 
 Limits = Mapping[str, tuple[float, float]]
 """Range of each parameter that is given (one value) or bounded, by name."""
@@ -101,8 +101,12 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
             any(is_within(r, limits) for r in renamings(*pair))
             for pair in ((chain, other), (other, chain))
         )
+    from disting.decide.asking import share
+    from disting.evidence.positive import Share
+
     own_side, other_side = (engine.subject(str(c), c) for c in (chain, other))
-    return own_side.has_same_positive(other_side)
+    ways = share(own_side, other_side), share(other_side, own_side)
+    return all(finding.share is Share.ALWAYS for finding in ways)
 
 
 def alternatives(
@@ -152,7 +156,7 @@ def _as_either(winner: Chain, other: Chain, engine: Engine, limits: Limits) -> A
 
 
 def _alternative(
-    winner: "ComparedChain", other: "ComparedChain", engine: Engine, limits: Limits
+    winner: "ChainSide", other: "ChainSide", engine: Engine, limits: Limits
 ) -> Alternative | None:
     """By the conditions, and only where they are silent by the exact decision: inclusions are
     not asked for.

@@ -17,20 +17,17 @@ zeros cancel. What settles a pair first is kept:
 
 The larger chain, with more poles, never lies in the smaller one: its generic model does not have
 as few.
-
-What inclusion asks of a chain that is compared.
 """
 
 from collections.abc import Iterator
 from dataclasses import astuple
 from functools import lru_cache
 from itertools import permutations, product
-from typing import Protocol
 
 from disting.algebra.certainty import Certainty, about
 from disting.behaviour.chain_model import degrees
-from disting.behaviour.profile import Profile
 from disting.behaviour.sample import Representation
+from disting.conditions.chain_view import ChainSide
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.conditions import Counts
 from disting.evidence.limits import (
@@ -43,9 +40,9 @@ from disting.evidence.limits import (
 )
 from disting.model.chain import Chain
 from disting.model.family import Family
-from disting.model.question import Answerer, Settings
+from disting.model.question import Settings
 from disting.model.row import Row, canonical_rows
-from disting.model.symmetry import Form, canonical
+from disting.model.symmetry import canonical
 from disting.questions.inclusion.limit_fibre import find_containment
 from disting.questions.inclusion.limits import follows, reach, room
 from disting.questions.inclusion.pole_sharing import excluding_points, exclusion_safety
@@ -55,40 +52,13 @@ from disting.questions.same.exact import rational_part, theorem
 REMEMBERED = 1024  # chains whose twins are kept
 
 
-class ChainSide(Protocol):
-    """A chain with its canonical form, its rank, its profiles, and who answers about it."""
-
-    @property
-    def chain(self) -> Chain:
-        """The chain as given."""
-
-    @property
-    def canonical(self) -> Form:
-        """Its canonical form under the symmetries of the class."""
-
-    @property
-    def rank(self) -> int:
-        """Number of determinable parameters."""
-
-    @property
-    def settings(self) -> Settings:
-        """How many points are drawn, and by which seed."""
-
-    @property
-    def answerer(self) -> Answerer:
-        """Who computes, or looks up."""
-
-    def profile(self, representation: Representation, count: int) -> Profile:
-        """What it reveals in a representation, with so many Markov parameters."""
-
-
 def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     """Inclusion of chains of different sizes, of one sensor quantity; None where `compute`
     is to be asked.
     """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
-    first, second = small.canonical.chain, large.canonical.chain
+    first, second = small.view.form, large.view.form
     finding = show_inclusion(first, second, left_is_larger)
     if finding is not None:
         inside = Inclusion.RIGHT_IN_LEFT if left_is_larger else Inclusion.LEFT_IN_RIGHT
@@ -185,7 +155,7 @@ def refute(small: ChainSide, large: ChainSide, left_is_larger: bool) -> Inclusio
     """What degrees and ranks say against the inclusion of a chain with fewer poles; None if
     nothing.
     """
-    first, second = small.canonical.chain, large.canonical.chain
+    first, second = small.view.form, large.view.form
     if exceeds(first, second):
         counts = Counts(*order(degrees_of(first), degrees_of(second), not left_is_larger))
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)

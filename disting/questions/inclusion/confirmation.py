@@ -5,6 +5,7 @@ from math import comb
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.sample import Representation, samples
+from disting.conditions.chain_view import ChainSide
 from disting.decide import OF_INCLUSIONS, Of, check, deciders_of
 from disting.evidence.conditions import Counts, FreeChoice
 from disting.evidence.decision import DeadTime, FibreAt
@@ -31,7 +32,6 @@ from disting.model.chain import Chain, Sensor, Structure
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
 from disting.questions.inclusion.across_sizes import (
-    ChainSide,
     degrees_of,
     exceeds,
     fewer_poles,
@@ -123,7 +123,7 @@ def check_fibre(evidence: OfFibre, left: ChainSide, right: ChainSide) -> bool:
 
 
 def _forms(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
-    return left.canonical.chain, right.canonical.chain
+    return left.view.form, right.view.form
 
 
 def _left_is_smaller(left: ChainSide, right: ChainSide) -> bool:
@@ -160,7 +160,7 @@ def check_across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: C
         return False
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
-    smaller, larger = small.canonical.chain, large.canonical.chain
+    smaller, larger = small.view.form, large.view.form
     match evidence:
         case Counts():
             same = (evidence.left, evidence.right) == order(

@@ -10,10 +10,12 @@ a fibre (`decide.BOTH_CHAINS`), with the bounds of `disting.fibres.ideals.bounds
 refutes IMAGE, a solution, whose elements may be zero, proves CLOSURE.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from disting.algebra.certainty import Certainty
 from disting.behaviour.sample import Representation
+from disting.conditions.chain_view import ChainSide
 from disting.conditions.inclusion import (
     Inclusion,
     InclusionFinding,
@@ -23,6 +25,7 @@ from disting.conditions.inclusion import (
     inclusions_from_dict,
     inclusions_to_dict,
 )
+from disting.conditions.side import Ask
 from disting.decide import (
     BOTH_CHAINS,
     CLOSURE_CHAINS,
@@ -42,7 +45,6 @@ from disting.fibres.ideals import (
 )
 from disting.model.chain import Chain
 from disting.model.question import Membership, Question, Settings
-from disting.questions.inclusion.across_sizes import ChainSide
 from disting.questions.inclusion.closures import of_closure
 from disting.questions.inclusion.profiles import by_elements, by_profiles
 from disting.questions.same.exact import rational_part
@@ -70,10 +72,39 @@ def inclusions(left: ChainSide, right: ChainSide) -> Inclusions:
     return join(left, right, image, closure)
 
 
+def all_inclusions(pairs: Sequence[tuple[ChainSide, ChainSide]], ask: Ask) -> list[Inclusions]:
+    """Return `inclusions` of many pairs: what profiles settle at once, then what has to be asked;
+    each pair of canonical forms is looked at once.
+    """
+    first = {_forms(*pair): pair for pair in reversed(pairs)}
+    quick = {key: quick_closure(*pair) for key, pair in first.items()}
+    ask(CLOSURE, [by_rank(*first[key]) for key, finding in quick.items() if finding is None])
+    closures = {
+        key: asked_closure(*first[key]) if finding is None else finding
+        for key, finding in quick.items()
+    }
+    implied = {key: implied_image(*first[key], closures[key]) for key in first}
+    ask(IMAGE, [by_rank(*first[key]) for key, finding in implied.items() if finding is None])
+    images = {
+        key: asked_image(*first[key]) if finding is None else finding
+        for key, finding in implied.items()
+    }
+    ask(
+        IDEALS,
+        [by_rank(*first[key]) for key in first if needs_ideals(images[key], closures[key])],
+    )
+    both = {key: join(*first[key], images[key], closures[key]) for key in first}
+    return [both[_forms(*pair)] for pair in pairs]
+
+
+def _forms(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
+    return left.view.form, right.view.form
+
+
 def by_rank(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
     """The canonical forms of both, the smaller rank first."""
     first, second = (left, right) if left.rank < right.rank else (right, left)
-    return first.canonical.chain, second.canonical.chain
+    return _forms(first, second)
 
 
 def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
@@ -93,12 +124,12 @@ def of_two_sensors(left: ChainSide, right: ChainSide) -> InclusionFinding | None
 
 def are_of_two_sizes(left: ChainSide, right: ChainSide) -> bool:
     """Return True for sides with different numbers of masses."""
-    return left.chain.n_masses != right.chain.n_masses
+    return left.view.given.n_masses != right.view.given.n_masses
 
 
 def are_of_one_size(left: ChainSide, right: ChainSide) -> bool:
     """Return True for sides with as many masses."""
-    return left.chain.n_masses == right.chain.n_masses
+    return left.view.given.n_masses == right.view.given.n_masses
 
 
 def of_elements(left: ChainSide, right: ChainSide) -> InclusionFinding | None:

@@ -7,6 +7,7 @@ from functools import partial
 
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.transfer import is_renaming
+from disting.conditions.chain_view import ChainSide
 from disting.conditions.rule import Finding
 from disting.decide import SAME_CHAINS, Of, check, deciders_of, recheck
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
@@ -65,6 +66,11 @@ class Witness:
         if structure not in self.memo:
             self.memo[structure] = samples_of(ChainModel(structure), self.seed)
         return self.memo[structure]
+
+
+def of_sides(evidence: Kind, left: ChainSide, right: ChainSide, representation: str) -> bool:
+    """Return True if evidence of a verdict holds for both chains."""
+    return Witness().confirms(evidence, representation, left.chain, right.chain)
 
 
 def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:

@@ -34,16 +34,16 @@ What equal ranks are needed for. One direction is looked at, say V1 against V2. 
 lie inside V2, the closures differ, whatever the ranks. Where it does, V1 = V2 holds only because
 both have one dimension: an irreducible closed set contains none but itself of its own dimension.
 Ranks seen at points are lower bounds, so two that are seen equal may differ. So a bounded HOLDS is
-as sure as the fibre and both ranks (`resting_on_ranks`); FAILS, theorems and full rows need no
-ranks.
+as sure as the fibre and both ranks (`decide.asking.resting_on_ranks`); FAILS, theorems and full
+rows need no ranks.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from disting.algebra.certainty import LEAST_SAFETY, Certainty, joint_safety
-from disting.behaviour.profile import Profile
+from disting.algebra.certainty import LEAST_SAFETY, Certainty
 from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.conditions.side import AnySide
 from disting.decide import SAME_CHAINS, first_finding
 from disting.evidence.decision import DeadTime, FibreAt, Theorem
 from disting.evidence.ideals import NoShares, Refutation, Solutions
@@ -65,7 +65,7 @@ from disting.fibres.ideals.full_rows import same_by_full_rows
 from disting.fibres.synthesis.decide import Direction, decide, safety_of_point
 from disting.fibres.synthesis.theorems import are_dual, are_foster, are_same_by_rows
 from disting.model.chain import Chain, Structure
-from disting.model.question import Membership, Settings
+from disting.model.question import Membership, Question, Settings
 from disting.model.symmetry import canonical
 
 # wanted of a fibre: with the ranks that it rests on, the bound may lose one bit
@@ -83,6 +83,13 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
         note = "the exact decision compares chains of equal size and sensor"
         return Finding(EXACT, Outcome.INAPPLICABLE, note=note)
     return finding
+
+
+def refuse_unequal(left: AnySide, right: AnySide) -> Finding | None:
+    """Not asked of chains of unequal rank."""
+    if left.rank == right.rank:
+        return None
+    return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")
 
 
 def are_alike(a: Chain, b: Chain, settings: Settings) -> bool:
@@ -204,16 +211,6 @@ def as_finding(decision: Decision[FibreAt | Solutions | Refutation]) -> Finding:
     )
 
 
-def resting_on_ranks(finding: Finding, left: Profile, right: Profile) -> Finding:
-    """The finding on two models whose ranks are seen equal: that it HOLDS is wrong also where
-    one that is not proven is.
-    """
-    if finding.outcome is not Outcome.HOLDS or finding.certainty is not Certainty.BOUNDED:
-        return finding
-    ranks = [p.safety for p in (left, right) if not p.rank_proven]
-    return replace(finding, safety=joint_safety([finding.safety, *ranks]))
-
-
 def rational_part(chain: Chain) -> Structure:
     """The structure without its dead time, a factor of its own that both models share."""
     return replace(chain, dead_time=False).structure
@@ -232,3 +229,6 @@ def theorem(a: Chain, b: Chain) -> str:
     if are_same_by_rows(a, b):
         return "parts"
     return "duality" if are_dual(canonical(a).chain, canonical(b).chain) else ""
+
+
+EXACTLY = Question("exact decisions", exact_finding, Finding.to_json, Finding.from_json)

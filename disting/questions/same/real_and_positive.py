@@ -20,11 +20,15 @@ odd n leaves at least one that is its own conjugate. A unique solution (n = 1) i
 reason.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import TypeVar
 
 from disting.algebra.certainty import Certainty, Grade, weakest
+from disting.conditions.chain_view import ChainSide
 from disting.conditions.rule import ADMISSIBLE, NOT_REAL, Finding, Outcome
+from disting.conditions.side import Ask
 from disting.decide import REAL_CHAINS, first_finding
 from disting.errors import InputError
 from disting.evidence.conditions import Renaming
@@ -33,10 +37,13 @@ from disting.evidence.kind import PointText
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import OddFibres, PositiveFinding, RealFactors, RealWitnesses, Share
 from disting.model.chain import Chain
-from disting.model.question import Question, Settings
+from disting.model.question import Domain, Question, Settings
+from disting.questions.identifiability.analysis import IDENTIFIABILITY
 from disting.questions.identifiability.answer import Identifiability
 from disting.questions.positive import always_real, positive_finding, real_witness
 from disting.questions.same.exact import theorem
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +111,33 @@ def witness_ways(left: Chain, right: Chain) -> tuple[tuple[Chain, Chain], ...]:
     if rational_map(left, right) or real_factors(left, right):
         return ()
     return tuple(sorted(((left, right), (right, left)), key=lambda pair: pair[0].indices))
+
+
+def of_sides(left: ChainSide, right: ChainSide, domain: Domain, why: Evidence | None) -> Finding:
+    """Return the decision over real parameters about two chains."""
+
+    def answer(question: Question[T], *forms: Chain) -> T:
+        return left.answerer(question, forms, left.settings)
+
+    asked = Answerers(
+        partial(answer, POSITIVELY), partial(answer, LACKING), partial(answer, IDENTIFIABILITY)
+    )
+    return real_finding(left.view.form, right.view.form, asked)
+
+
+def prepare(pairs: Sequence[tuple[ChainSide, ChainSide]], domain: Domain, ask: Ask) -> None:
+    """Count solutions of many pairs, and look for real models without real equivalents, the second
+    way where the first finds none.
+    """
+    forms = [(a.view.form, b.view.form) for a, b in pairs]
+    counted = [pair for pair in forms if needs_counts(*pair)]
+    ask(IDENTIFIABILITY, [(chain,) for pair in counted for chain in pair])
+    ways = [(a, witness_ways(*pair)) for (a, _), pair in zip(pairs, forms, strict=True)]
+    for k in range(2):
+        asked = [(s, way[k]) for s, way in ways if len(way) > k]
+        ask(LACKING, [chains for _, chains in asked])
+        none = {chains for s, chains in asked if not s.answerer(LACKING, chains, s.settings)}
+        ways = [(s, way) for s, way in ways if len(way) > k and way[k] in none]
 
 
 def real_finding(left: Chain, right: Chain, asked: Answerers) -> Finding:
