@@ -44,7 +44,7 @@ def test_an_answer_that_may_be_wrong_too_often_is_none(outcome):
         engine = Engine()
         subjects = [engine.subject(str(i), c) for i, c in enumerate(chains)]
         for i, j in combinations(range(3), 2):
-            key = question_key(QUICKLY, subjects[i].pair(subjects[j]), engine.settings)
+            key = question_key(QUICKLY, subjects[i].view.pair(subjects[j].view), engine.settings)
             engine.answers[key] = Finding(EXACT, outcome, Certainty.BOUNDED, safety)
         return {relation for *_, relation, _ in classes(chains, engine).pairs()}
 

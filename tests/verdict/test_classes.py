@@ -168,9 +168,9 @@ def answered(chains, outcomes):
         finding = Finding(
             EXACT, outcome, Certainty.BOUNDED if bounded else Certainty.PROVEN, 120 * bounded
         )
-        engine.answers[question_key(QUICKLY, subjects[i].pair(subjects[j]), engine.settings)] = (
-            finding
-        )
+        engine.answers[
+            question_key(QUICKLY, subjects[i].view.pair(subjects[j].view), engine.settings)
+        ] = finding
     return engine
 
 

@@ -324,7 +324,7 @@ def test_compare_says_the_same_as_a_matrix():
 
 
 def test_each_limit_is_shown_as_an_identity_when_it_is_found():
-    small, large = (s.canonical.chain for s in (subject(2, 2), subject(3, 9)))
+    small, large = (s.view.form for s in (subject(2, 2), subject(3, 9)))
     is_limit.cache_clear()
     evidence = show_inclusion(small, large, False)
     assert isinstance(evidence, Limit) and any(part.steps for part in evidence.parts)

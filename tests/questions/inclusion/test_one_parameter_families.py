@@ -88,7 +88,7 @@ def agree(chains, share):
 
 def refutes(one, other):
     """Whether anything that can deny a limit does, asked by itself."""
-    small, large = one.canonical.chain, other.canonical.chain
+    small, large = one.view.form, other.view.form
     if small.n_masses < large.n_masses:
         return refute(one, other, False) is not None or excluding_points(small, large, "families")
     profiles = (side.profile(Representation.TF, 0) for side in (one, other))
