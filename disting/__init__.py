@@ -85,6 +85,11 @@ if TYPE_CHECKING:
     from disting.conditions.inclusion import Inclusion as Inclusion
     from disting.conditions.rule import Finding as Finding, Outcome as Outcome
     from disting.conditions.table import CONDITIONS as CONDITIONS
+    from disting.decide.identifiability.answer import Identifiability as Identifiability
+    from disting.decide.identifiability.levels import (
+        ParameterIdentifiability as ParameterIdentifiability,
+    )
+    from disting.decide.identifiability.parts import Level as Level
     from disting.equivalence import (
         equivalents as equivalents,
         explicit_map as explicit_map,
@@ -120,11 +125,6 @@ if TYPE_CHECKING:
     from disting.network.network import Element as Element, Network as Network, Port as Port
     from disting.network.notation import network_of as network_of, values_in as values_in
     from disting.quantities import Sensor as Sensor
-    from disting.questions.identifiability.answer import Identifiability as Identifiability
-    from disting.questions.identifiability.levels import (
-        ParameterIdentifiability as ParameterIdentifiability,
-    )
-    from disting.questions.identifiability.parts import Level as Level
     from disting.store import CacheWarning as CacheWarning, Store as Store
     from disting.verdict.comparison import (
         compare as compare,

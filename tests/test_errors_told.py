@@ -37,11 +37,11 @@ from disting import (
     report,
     simulation,
 )
+from disting.decide import identifiability
 from disting.equivalence import explicit_map
 from disting.errors import CatalogError, DistingError, InputError
 from disting.experiments.experiment import MeasuredChain
 from disting.model.kinds import LOCK
-from disting.questions import identifiability
 from tests.test_public_api import DOCUMENTED, callables
 
 DRIVE, VALUES = Chain(2), {"m1": 1.0, "m2": 1.0, "k12": 1.0, "d12": 0.1}
@@ -197,8 +197,8 @@ CALLS: tuple[Call, ...] = (
     ("experiments.move", lambda: experiments.move(Experiment(locked=9), ((1, 2),)), KeyError),
     ("experiments.Change", lambda: experiments.Change(LOCK, 2, "0.5"), InputError),
     ("experiments.MeasuredChain", lambda: experiments.MeasuredChain(DRIVE, (Experiment(locked=9),)), InputError),
-    ("questions.identifiability.decode", lambda: identifiability.decode("nonsense"), ValueError),
-    ("questions.identifiability.identifiability", lambda: identifiability.identifiability("no"), InputError),
+    ("decide.identifiability.decode", lambda: identifiability.decode("nonsense"), ValueError),
+    ("decide.identifiability.identifiability", lambda: identifiability.identifiability("no"), InputError),
 )  # fmt: skip
 
 NOT_CAUSED = {

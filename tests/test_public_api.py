@@ -109,7 +109,7 @@ def test_public_names():
 LONGEST_HELP = 400  # lines; with all members of all names it would be 7,400
 HELPFUL = (
     "", ".catalogs", ".equivalence", ".experiments", ".fit", ".general", ".measurement", ".network",
-    ".questions.identifiability", ".report", ".report.fit", ".simulation",
+    ".decide.identifiability", ".report", ".report.fit", ".simulation",
 )  # fmt: skip
 
 
@@ -179,7 +179,7 @@ MOST_LINES_OF_A_FIT = 40_000
 NOT_FOR_A_FIT = (
     "planning", "fit.networks", "general", "experiments.measured_view", "report.page",
     "report.drawing", "catalogs.catalog", "measurement.matlab", "measurement.uff", "simulation.bench",
-    "verdict.cascade", "decide.asking", "questions.same", "questions.inclusion", "fibres.ideals",
+    "verdict.cascade", "decide.asking", "decide.same", "decide.inclusion", "fibres.ideals",
     "algebra.groebner", "measurement.welch",
 )  # fmt: skip
 
@@ -241,7 +241,7 @@ def callables(room):
 
 DOCUMENTED = (
     "", ".measurement", ".report", ".simulation", ".fit", ".equivalence", ".experiments", ".general",
-    ".questions.identifiability",
+    ".decide.identifiability",
 )  # fmt: skip
 
 
@@ -295,7 +295,7 @@ TOTAL = {
     ".equivalence": {"among"},
     ".experiments": set(),
     ".general": {"as_chain", "is_explicit", "is_without", "parameter_identifiability", "without_names"},
-    ".questions.identifiability": {
+    ".decide.identifiability": {
         "by_parameter", "confirms", "encode", "identifiabilities", "in_names_of", "joint", "local",
     },
 }  # fmt: skip

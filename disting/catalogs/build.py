@@ -29,6 +29,9 @@ from disting.conditions.inclusion import inclusions_to_dict
 from disting.conditions.rule import Finding, Outcome, Stage
 from disting.conditions.side import AnySide, Side
 from disting.decide import asking
+from disting.decide.identifiability.answer import Identifiability
+from disting.decide.same.evidence_check import Witness, finding_holds
+from disting.decide.same.low_cost import patient_finding
 from disting.errors import CatalogError
 from disting.evidence.general import without_digits
 from disting.evidence.kinds import evidence_from
@@ -39,9 +42,6 @@ from disting.model.family import Family
 from disting.model.question import Domain, Settings
 from disting.model.symmetry import canonical
 from disting.network.families import NetworkFamily
-from disting.questions.identifiability.answer import Identifiability
-from disting.questions.same.evidence_check import Witness, finding_holds
-from disting.questions.same.low_cost import patient_finding
 from disting.verdict.claim_checks import false_of_inclusions
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, map_tasks, silent

@@ -30,6 +30,7 @@ from disting.catalogs.files import (
 )
 from disting.conditions.inclusion import Inclusion, Inclusions, inclusions_from_dict
 from disting.conditions.rule import NOT_REAL, RULES, Finding, Stage, positive_ways
+from disting.decide.identifiability.answer import Identifiability
 from disting.errors import CatalogError, ContradictionError, InputError, of_type
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import PositiveFinding
@@ -38,7 +39,6 @@ from disting.model.chain import Chain, Premise
 from disting.model.family import Family
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Domain
-from disting.questions.identifiability.answer import Identifiability
 from disting.verdict.forest import classes_of
 from disting.verdict.result import PROVES, Relation, Step, Verdict, View, open_note
 

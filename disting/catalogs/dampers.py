@@ -37,6 +37,7 @@ from disting.catalogs.files import (
     write_provenance,
 )
 from disting.conditions.rule import EXACT, WRITTEN
+from disting.decide.same.low_cost import PATIENTLY
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain
@@ -44,7 +45,6 @@ from disting.model.family import Family
 from disting.model.presentation import plural, summary
 from disting.model.question import Domain, Settings
 from disting.model.symmetry import canonical
-from disting.questions.same.low_cost import PATIENTLY
 from disting.verdict.class_search import classes
 from disting.verdict.classes import Classes
 from disting.verdict.decisions import Decisions

@@ -5,11 +5,11 @@ an engine, and as it is over positive parameters.
 from functools import lru_cache
 
 from disting.catalogs.catalog import Catalog, ModelRow
+from disting.decide.identifiability.analysis import IDENTIFIABILITY, rename
+from disting.decide.identifiability.answer import Identifiability
 from disting.model.chain import Chain
 from disting.model.question import Domain
 from disting.model.symmetry import canonical
-from disting.questions.identifiability.analysis import IDENTIFIABILITY, rename
-from disting.questions.identifiability.answer import Identifiability
 from disting.verdict.engine import Engine
 from disting.verdict.identifiable import identify_chain
 

@@ -7,7 +7,7 @@ representation, and the `inclusions` of models of unequal rank. Only limits are 
 complex parameters; where nothing settles them the finding says why.
 
 Models of different sizes differ in their degrees (conditions 1 and 2); but the smaller model may
-lie inside the larger one, as a limit (see `questions.inclusion.across_sizes`). The file is
+lie inside the larger one, as a limit (see `decide.inclusion.across_sizes`). The file is
 computed, written, and verified like a catalogue.
 """
 
@@ -35,6 +35,10 @@ from disting.catalogs.files import (
 from disting.conditions.chain_view import ChainView
 from disting.conditions.inclusion import inclusions_from_dict, inclusions_to_dict
 from disting.conditions.side import Side
+from disting.decide.inclusion.confirmation import confirms
+from disting.decide.inclusion.decide import CLOSURE, IMAGE, turn
+from disting.decide.same.evidence_check import Witness
+from disting.decide.same.real_and_positive import POSITIVELY
 from disting.errors import CatalogError, InputError
 from disting.evidence.positive import PositiveFinding
 from disting.files import intact_text, write_whole
@@ -43,10 +47,6 @@ from disting.model.family import Family
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Models, Question
 from disting.model.symmetry import canonical
-from disting.questions.inclusion.confirmation import confirms
-from disting.questions.inclusion.decide import CLOSURE, IMAGE, turn
-from disting.questions.same.evidence_check import Witness
-from disting.questions.same.real_and_positive import POSITIVELY
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.result import Query, Relation, Verdict, View

@@ -12,6 +12,7 @@ from disting.cli.model_names import in_letters, models_of
 from disting.cli.output import emit
 from disting.cli.relations import query
 from disting.cli.workers import engine_for, told_if_long
+from disting.decide.positive import ranges, within_ranges
 from disting.errors import InputError, enumeration
 from disting.evidence.positive import PositiveFinding
 from disting.experiments import Experiment, MeasuredChain, Places, move, parse_experiment
@@ -23,7 +24,6 @@ from disting.general.special_values import SpecialValues, special_values
 from disting.model.chain import Chain, text_drawing
 from disting.model.question import Domain, Settings
 from disting.network.denotation import FREE_NAMES
-from disting.questions.positive import ranges, within_ranges
 from disting.verdict.comparison import compare, prove
 from disting.verdict.placement_verdicts import (
     AllPlacements,

@@ -25,6 +25,7 @@ from disting.cli.arguments import (
 from disting.cli.model_names import in_letters
 from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import Work, announce, engine_for
+from disting.decide.identifiability import Level, ParameterIdentifiability
 from disting.errors import InputError, enumeration
 from disting.experiments import Experiment, MeasuredChain, parse_experiment
 from disting.experiments.identifiable import IDENTIFIABLE
@@ -36,7 +37,6 @@ from disting.model.names import damping_option
 from disting.model.question import Domain
 from disting.network import Network, network_of
 from disting.network.families import DAMPED, KINDS, Kind
-from disting.questions.identifiability import Level, ParameterIdentifiability
 from disting.verdict.comparison import identifiability
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.identifiable import Identified, identify, identify_measured

@@ -92,12 +92,12 @@ from disting.evidence.positive import (
 )
 
 # packages of the functions
-_SAME, _CHECK = "questions.same.exact", "questions.same.evidence_check"
-_QUICK, _REAL = "questions.same.low_cost", "questions.same.real_and_positive"
-_SHARE, _SHARED = "questions.positive.shares", "questions.positive.confirmation"
+_SAME, _CHECK = "decide.same.exact", "decide.same.evidence_check"
+_QUICK, _REAL = "decide.same.low_cost", "decide.same.real_and_positive"
+_SHARE, _SHARED = "decide.positive.shares", "decide.positive.confirmation"
 _UNDER, _MEASURED = "experiments.exact", "experiments.measured_evidence"
 _OVER, _FORMS, _VALUES = "general.over_domain", "general.forms", "general.admissible"
-_INSIDE, _CONFIRM = "questions.inclusion.decide", "questions.inclusion.confirmation"
+_INSIDE, _CONFIRM = "decide.inclusion.decide", "decide.inclusion.confirmation"
 _INSIDE_ALL = "experiments.inclusion"
 _MODELS, _EVIDENCE = "general.any_model", "general.model_evidence"
 
@@ -573,7 +573,7 @@ CLOSURE_CHAINS = Table(
             name="other size: common poles, a fibre of limits",
             cost=Cost.IDEALS,
             applies=f"{_INSIDE}:differ_in_size",
-            decide="questions.inclusion.across_sizes:compute",
+            decide="decide.inclusion.across_sizes:compute",
             yields=(PoleSharing, LimitFibre),
             check=f"{_CONFIRM}:check_across_sizes",
         ),
@@ -604,7 +604,7 @@ CLOSURE_CHAINS = Table(
             name="other size: limits of rows, missing elements, counts and ranks",
             cost=Cost.RANKS,
             applies=f"{_INSIDE}:are_of_two_sizes",
-            decide="questions.inclusion.across_sizes:by_sizes",
+            decide="decide.inclusion.across_sizes:by_sizes",
             yields=(Limit, Meeting, TooLarge),
             check=f"{_CONFIRM}:check_across_sizes",
         ),
@@ -636,28 +636,28 @@ IMAGE_CHAINS = Table(
         Decider(
             name="relative degrees of the rows",
             cost=Cost.CLOSED_FORM,
-            decide="questions.inclusion.image:by_degrees",
+            decide="decide.inclusion.image:by_degrees",
             yields=(RelativeDegrees,),
             check=f"{_CONFIRM}:check_relative_degrees",
         ),
         Decider(
             name="Markov parameters of the rows",
             cost=Cost.RANKS,
-            decide="questions.inclusion.image:by_rows",
+            decide="decide.inclusion.image:by_rows",
             yields=(ByRows,),
             check=f"{_CONFIRM}:check_fibre",
         ),
         Decider(
             name="one fibre by network synthesis",
             cost=Cost.FIBRE,
-            decide="questions.inclusion.image:by_synthesis",
+            decide="decide.inclusion.image:by_synthesis",
             yields=(FibreAt,),
             check=f"{_CONFIRM}:check_fibre",
         ),
         Decider(
             name="small ideal of one fibre",
             cost=Cost.IDEALS,
-            decide="questions.inclusion.image:by_small_ideal",
+            decide="decide.inclusion.image:by_small_ideal",
             yields=(Refutation,),
             check=f"{_CONFIRM}:check_fibre",
         ),

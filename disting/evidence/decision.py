@@ -117,7 +117,7 @@ class Theorem(Kind):
 @dataclass(frozen=True, slots=True)
 class DeadTime(Kind):
     """Exact decision: one of the two has a dead time, so a factor that is no rational function
-    (see `questions.same.exact`).
+    (see `decide.same.exact`).
     """
 
     kind: ClassVar[str] = "dead time"

@@ -17,7 +17,7 @@ class RowLimit(NamedTuple):
     and by a count.
 
     Step: an element and what it tends to, masses of the row numbered anew after each. `room`:
-    rank, coordinates, factors and 1 or 0 for the mass (see `questions.inclusion.limits`) of the
+    rank, coordinates, factors and 1 or 0 for the mass (see `decide.inclusion.limits`) of the
     last step; () if the steps lead to the row itself. Rows are canonical.
     """
 
@@ -94,7 +94,7 @@ class Limit(Kind):
 
 @dataclass(frozen=True, slots=True)
 class Meeting(Kind):
-    """Dimensions of closures add up (see `questions.inclusion.limits`), so a common factor exists
+    """Dimensions of closures add up (see `decide.inclusion.limits`), so a common factor exists
     with which the smaller model is a limit.
     """
 
@@ -143,7 +143,7 @@ class TooLarge(Kind):
 @dataclass(frozen=True, slots=True)
 class PoleSharing(Kind):
     """Smaller models whose poles cannot be distributed to the rows of the larger chain (see
-    `questions.inclusion.pole_sharing`).
+    `decide.inclusion.pole_sharing`).
 
     `points`: their parameters in order, canonical form, each modulo the prime that belongs to the
     label and its place. One point needs no more; at several, equations of the grounded row were

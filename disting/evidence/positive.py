@@ -298,7 +298,7 @@ _RELATIONS = {
 @dataclass(frozen=True, slots=True)
 class RealFactors(Kind):
     """Every polynomial that either chain must split into real factors can be split so (see
-    `questions.positive.real`).
+    `decide.positive.real`).
     """
 
     kind: ClassVar[str] = "real factors"

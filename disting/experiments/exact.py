@@ -64,6 +64,9 @@ from disting.decide import (
     first_finding,
 )
 from disting.decide.asking import NOT_KNOWN, by_shares_both_ways, same
+from disting.decide.identifiability.analysis import identifiability
+from disting.decide.same.exact import SAFETY, as_finding
+from disting.decide.same.real_and_positive import positive_share
 from disting.evidence.conditions import FreeChoice, Renaming
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import Empirical, OnlyOne, Points, PositiveFinding, Share
@@ -85,9 +88,6 @@ from disting.fibres.synthesis.task import Solution
 from disting.model.chain import Chain
 from disting.model.question import Answer, Domain, Question, Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability.analysis import identifiability
-from disting.questions.same.exact import SAFETY, as_finding
-from disting.questions.same.real_and_positive import positive_share
 
 TRIES = 12  # points
 SCALES = 4  # each coordinate is 2^-4, .., 2^4 times a number between 1/2 and 2

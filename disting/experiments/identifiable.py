@@ -4,7 +4,7 @@ fit.
 The stacked Jacobian tells what is determined locally. Where one experiment alone leaves finitely
 many parameter vectors, they are listed at a random point, and those that another experiment
 certainly refutes are none of the stacked fibre. That no others come at generic points is told by
-the argument of `questions.identifiability.solutions`: a hypersurface that depends on the one
+the argument of `decide.identifiability.solutions`: a hypersurface that depends on the one
 experiment alone bounds where solutions come or go, and what is refuted at the point is refuted all
 around it. If one vector is left it is the point itself, and all parameters are globally
 identifiable. Otherwise the ideal of the stacked fibre tells for each parameter whether it has one
@@ -17,14 +17,7 @@ where one of them is not zero.
 from dataclasses import replace
 
 from disting.algebra.certainty import enough
-from disting.experiments.experiment import MeasuredChain
-from disting.experiments.listing import ExperimentFibre, lists, without_dead_time
-from disting.experiments.machine_model import MachineModel
-from disting.experiments.maps import stacked_map
-from disting.fibres.synthesis.decide import safety_of_point
-from disting.fibres.synthesis.task import Confirmation
-from disting.model.question import Question, Settings
-from disting.questions.identifiability import (
+from disting.decide.identifiability import (
     Level,
     Local,
     ParameterIdentifiability,
@@ -34,6 +27,13 @@ from disting.questions.identifiability import (
     joint,
     local,
 )
+from disting.experiments.experiment import MeasuredChain
+from disting.experiments.listing import ExperimentFibre, lists, without_dead_time
+from disting.experiments.machine_model import MachineModel
+from disting.experiments.maps import stacked_map
+from disting.fibres.synthesis.decide import safety_of_point
+from disting.fibres.synthesis.task import Confirmation
+from disting.model.question import Question, Settings
 
 SILENT = "no sensor moves, so nothing is determined"
 

@@ -7,7 +7,7 @@ model into that of the smaller one, whatever is locked or added (`model.minors`)
 
 Outside. If V1 lies inside V2, so do their projections on one experiment, and on every set of
 coefficients. So one experiment is enough in which no limit has the degrees (the lemma of
-`questions.inclusion.profiles`, which speaks of finite elements only where it says so), in which the
+`decide.inclusion.profiles`, which speaks of finite elements only where it says so), in which the
 one sensor moves and the other one never does, or in which the model that has the smaller rank in
 all of them together has the larger one.
 """
@@ -23,19 +23,19 @@ from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.conditions.side import AnySide
 from disting.decide import CLOSURE_MEASURED, first_finding
-from disting.evidence.conditions import Counts
-from disting.evidence.limits import LargerProjection, MissingElements
-from disting.experiments.experiment import Experiment, MeasuredChain
-from disting.experiments.machine_model import MachineModel
-from disting.model.kinds import Kind
-from disting.model.minors import embeddings, is_minor, minors
-from disting.questions.inclusion.profiles import (
+from disting.decide.inclusion.profiles import (
     by_missing_elements,
     by_profiles,
     exceed,
     order,
     without_dead_time,
 )
+from disting.evidence.conditions import Counts
+from disting.evidence.limits import LargerProjection, MissingElements
+from disting.experiments.experiment import Experiment, MeasuredChain
+from disting.experiments.machine_model import MachineModel
+from disting.model.kinds import Kind
+from disting.model.minors import embeddings, is_minor, minors
 
 IMAGE_NOT_ASKED = "under several experiments only limits are asked for"
 NOT_SETTLED = "neither missing elements nor one experiment alone settles it"

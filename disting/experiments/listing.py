@@ -6,7 +6,7 @@ rational point of the other chain (`fibres.synthesis`). A listed ball that certa
 transfer function in some other experiment is none of the stacked fibre. If all are, no parameters
 of the searched chain have the behaviour of that point.
 
-What one point proves is what `questions.same.exact` says of one transfer function: the argument
+What one point proves is what `decide.same.exact` says of one transfer function: the argument
 knows the equations by their degree alone. Equal transfer functions are equations N2 D1 = N1 D2 of
 degree 2 (N_B + 1) at most in the parameters of both, in every experiment: locked masses and what is
 known lower degrees. That is no more than the 3 N_B + 2 of `synthesis.decide.safety_of_point`, and

@@ -11,6 +11,10 @@ from disting.behaviour.profile import profile
 from disting.behaviour.sample import Representation
 from disting.conditions.rule import Finding
 from disting.decide import OF_INCLUSIONS, OF_VERDICTS, Of, check, deciders_of
+from disting.decide.identifiability.analysis import identifiability
+from disting.decide.inclusion.profiles import exceed, order
+from disting.decide.positive import proves
+from disting.decide.same.exact import by_labels
 from disting.evidence.conditions import Counts, FreeChoice, Ranks
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refutation, Solutions
@@ -30,10 +34,6 @@ from disting.fibres.synthesis.task import fraction
 from disting.model.chain import Chain
 from disting.model.question import Answer, Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability.analysis import identifiability
-from disting.questions.inclusion.profiles import exceed, order
-from disting.questions.positive import proves
-from disting.questions.same.exact import by_labels
 
 FRESH = Settings(seed="checked again", subset_limit=0)
 OfMeasured = Evidence | InclusionEvidence

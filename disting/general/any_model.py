@@ -9,6 +9,7 @@ from typing import TypeVar, overload
 
 from disting.conditions.rule import Finding
 from disting.decide import SAME_NETWORKS, first_finding
+from disting.decide.same.exact import SAFETY, as_finding
 from disting.fibres.ideals import (
     CoefficientMap,
     Fraction as Ratio,
@@ -27,7 +28,6 @@ from disting.model.question import Question, Settings
 from disting.network.chains import RenamedChain, as_renamed_chain
 from disting.network.denotation import Naming, naming_of
 from disting.network.network import Network
-from disting.questions.same.exact import SAFETY, as_finding
 
 LIMITS = Limits(safety=SAFETY, long=True)
 M = TypeVar("M", Model, AnyModel)

@@ -11,6 +11,14 @@ from dataclasses import dataclass, replace
 
 from disting.algebra.certainty import Certainty, grade_of
 from disting.conditions.side import Side
+from disting.decide.identifiability.levels import (
+    ParameterIdentifiability,
+    by_parameter,
+    decode,
+    encode,
+    local,
+)
+from disting.decide.identifiability.parts import Level
 from disting.errors import of_type
 from disting.general.any_model import cells_of, map_of
 from disting.general.exponents import count_determined, may_be_others
@@ -19,14 +27,6 @@ from disting.general.network_model import behaviour_of
 from disting.general.network_view import OTHER_ORDER, NetworkView, other_orders
 from disting.model.presentation import summary
 from disting.model.question import Question, Settings
-from disting.questions.identifiability.levels import (
-    ParameterIdentifiability,
-    by_parameter,
-    decode,
-    encode,
-    local,
-)
-from disting.questions.identifiability.parts import Level
 
 SETTINGS = Settings()
 OTHER_EXPONENTS = "other exponents may do the same"

@@ -9,6 +9,7 @@ from math import isclose
 
 from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.decide import Of, check, deciders_of
+from disting.decide.same.exact import by_labels
 from disting.evidence.decision import Theorem
 from disting.evidence.general import (
     UNCOUNTED,
@@ -35,7 +36,6 @@ from disting.general.target import Values
 from disting.general.which_models import ways_by_all
 from disting.general.witnesses import solutions_at
 from disting.model.question import Domain, Settings
-from disting.questions.same.exact import by_labels
 
 # relative: so far from values of 6 digits are those found again on some curves, half of it in
 # families that are shipped

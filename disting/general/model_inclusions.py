@@ -1,7 +1,7 @@
 """Which general models of unequal rank lie in the closure of one another: where missing elements of
 networks show it, and where degrees, ranks and free invariants do. No fibre is looked at.
 
-Over complex parameters. The lemma of `questions.inclusion.profiles` speaks of any rational
+Over complex parameters. The lemma of `decide.inclusion.profiles` speaks of any rational
 functions, the theorem of `network.minors` of networks.
 """
 
@@ -12,6 +12,7 @@ from disting.behaviour.profile import Profile, profile
 from disting.behaviour.sample import Representation
 from disting.conditions.inclusion import Inclusion, InclusionFinding, Inclusions
 from disting.decide import CLOSURE_NETWORKS, OF_INCLUSIONS, Of, check, deciders_of, first_finding
+from disting.decide.inclusion.profiles import by_profiles, inside, order
 from disting.evidence.kinds import InclusionEvidence
 from disting.evidence.limits import Minor
 from disting.general.matrix_model import AnyModel
@@ -21,7 +22,6 @@ from disting.model.question import Settings
 from disting.network.branches import branches, rest_of
 from disting.network.minors import is_minor, minors
 from disting.network.network import Network
-from disting.questions.inclusion.profiles import by_profiles, inside, order
 
 IMAGE_NOT_ASKED = "of general models only limits are asked for"
 NOT_SETTLED = "neither missing elements nor the profiles settle it"

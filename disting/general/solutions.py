@@ -34,6 +34,8 @@ from flint import fmpz, fmpz_mpoly
 from disting.algebra.certainty import Certainty, about, residues
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.conditions.side import Side
+from disting.decide.identifiability.domains import OverDomains, Solutions
+from disting.decide.identifiability.parts import Level, Renaming
 from disting.errors import InputError
 from disting.fibres.ideals.one_value import safety_of_count
 from disting.general.any_model import map_of
@@ -50,8 +52,6 @@ from disting.general.symmetries import Permutation, exchange_of, generators_of, 
 from disting.general.target import joint_equations, target
 from disting.general.vectors import Vector, are_same, plain_vector, vector_of
 from disting.model.question import Domain, Question, Settings
-from disting.questions.identifiability.domains import OverDomains, Solutions
-from disting.questions.identifiability.parts import Level, Renaming
 
 CHEAP_UP_TO, TRIES = 8, 6  # parameters, and orders of the unknowns: a second or two
 POINTS = 16  # at which vectors are counted

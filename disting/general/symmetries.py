@@ -10,10 +10,10 @@ from itertools import islice
 
 from disting.algebra.certainty import prime
 from disting.algebra.colouring import renamings
+from disting.decide.identifiability.parts import Renaming
 from disting.general.any_model import is_renamed
 from disting.general.matrix_model import AnyModel
 from disting.general.network_model import behaviour_of
-from disting.questions.identifiability.parts import Renaming
 
 MOST = 720  # renamings: six equal branches
 Permutation = tuple[int, ...]

@@ -42,6 +42,7 @@ from disting.algebra.symbols import (
     terms,
 )
 from disting.behaviour.transfer import expand
+from disting.decide.identifiability.parts import Combination, Formula
 from disting.equivalence import explicit_map
 from disting.equivalence.duplicates import Assignment
 from disting.equivalence.reach import Piece
@@ -50,7 +51,6 @@ from disting.general.expansion import Expansion
 from disting.general.expression import names as symbols_of, tree
 from disting.general.matrix_model import Model
 from disting.model.chain import Chain
-from disting.questions.identifiability.parts import Combination, Formula
 
 
 def math(inner: str) -> Markup:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, permutations
 
+from disting.decide.identifiability.parts import Level
 from disting.equivalence.reach import REACHED, Reach
 from disting.errors import InputError
 from disting.general import AnyModel, Model, ModelList, without_names
@@ -17,7 +18,6 @@ from disting.general.special_values import SpecialValues, special_values
 from disting.model.presentation import plural
 from disting.model.question import Domain
 from disting.network.notation import network_of, notations_of
-from disting.questions.identifiability.parts import Level
 from disting.report.drawing import Drawing
 from disting.report.network_drawing import draw_network, scene_of
 from disting.report.payload import VIEWS, Over, over

@@ -14,10 +14,10 @@ from disting.catalogs import Catalog, ModelRow
 from disting.catalogs.recalled_chains import over_positive
 from disting.conditions.inclusion import Inclusion
 from disting.conditions.rule import RULES
+from disting.decide.identifiability.answer import Identifiability
 from disting.errors import InputError
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.chain import Chain
-from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import Drawing, additions, draw, share
 from disting.report.environment import render
 from disting.report.formulas import (

@@ -19,6 +19,7 @@ from disting.behaviour.transfer import transfer_function
 from disting.catalogs import Catalog
 from disting.catalogs.sizes import SizesCatalog
 from disting.conditions.inclusion import Inclusion
+from disting.decide.identifiability.answer import Identifiability
 from disting.equivalence import Equivalents
 from disting.equivalence.duplicates import Duplicate, Gate
 from disting.errors import DistingError
@@ -38,7 +39,6 @@ from disting.model.chain import Chain, StateSpace
 from disting.model.family import Family
 from disting.network.network import Network
 from disting.planning.power import Plan, is_trusted
-from disting.questions.identifiability.answer import Identifiability
 from disting.report.drawing import chain_svg
 from disting.report.fit.plan_words import chance
 from disting.report.fit.sentences import quantity_rows

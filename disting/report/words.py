@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator, Sized
 from typing import TYPE_CHECKING, Protocol
 
+from disting.decide.identifiability.parts import Level
 from disting.model.presentation import plural as plural
 from disting.model.question import Domain
-from disting.questions.identifiability.parts import Level
 from disting.verdict.meaning import undetermined_sentence
 from disting.verdict.result import Relation, Verdict, View
 

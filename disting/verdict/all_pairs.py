@@ -27,8 +27,8 @@ from disting.decide.asking import (
     same,
     share,
 )
+from disting.decide.same.real_and_positive import resting_on
 from disting.model.question import Domain
-from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.cascade import said_of
 from disting.verdict.decisions import NUMBERS, STAGES, Decisions, markov_count
 from disting.verdict.result import Query, Relation, Step

@@ -6,7 +6,7 @@ that holds INDISTINGUISHABLE; otherwise the pair is left to the exact decision; 
 settle is UNDECIDED. The paper's view ends with the conditions. All of it is over the complex
 numbers: distinguishable models are so over real and positive parameters too (real and positive
 points are Zariski dense), while for indistinguishable ones the admissible values are asked for
-(see `questions.same.real_and_positive`).
+(see `decide.same.real_and_positive`).
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -20,12 +20,12 @@ from disting.conditions.side import AnySide, notes_of
 from disting.conditions.table import CONDITIONS, Necessary, Structural, Sufficient
 from disting.decide import asking
 from disting.decide.asking import has_shares, inclusions, same, share
+from disting.decide.same.real_and_positive import resting_on
 from disting.errors import ContradictionError
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence
 from disting.evidence.positive import PositiveFinding, Share
 from disting.model.question import Domain
-from disting.questions.same.real_and_positive import resting_on
 from disting.verdict.result import PROVES, Query, Relation, Step, Verdict, open_note
 
 SUMMARIES = (Stage.TF, Stage.MARKOV)  # exhaustive ones, which profiles are made of

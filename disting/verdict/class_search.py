@@ -32,11 +32,11 @@ from disting.behaviour.sample import Representation
 from disting.conditions.chain_view import ChainSide
 from disting.conditions.rule import EXACT, Finding, Outcome
 from disting.conditions.table import NECESSARY
+from disting.decide.same.low_cost import INVERSELY, QUICKLY
 from disting.errors import ContradictionError, InputError
 from disting.model.chain import Chain
 from disting.model.protocol import Model
 from disting.model.question import Question
-from disting.questions.same.low_cost import INVERSELY, QUICKLY
 from disting.verdict.buckets import NOT_KNOWN, Buckets
 from disting.verdict.classes import Classes, without_dampers
 from disting.verdict.engine import Engine, Progress, silent

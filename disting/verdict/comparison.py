@@ -18,6 +18,7 @@ from disting.algebra.determinants import OutOfTimeError
 from disting.behaviour.transfer import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
 from disting.conditions.side import AnySide, Of
+from disting.decide.identifiability import Identifiability, ParameterIdentifiability
 from disting.errors import InputError, of_type, short
 from disting.evidence.conditions import Ranks
 from disting.experiments.experiment import Experiment
@@ -26,7 +27,6 @@ from disting.general import AnyModel, MatrixModel, Model
 from disting.model.chain import Chain, Sensor, Structure, as_sensor
 from disting.model.names import read_together
 from disting.model.question import Domain
-from disting.questions.identifiability import Identifiability, ParameterIdentifiability
 from disting.renamed import renamed
 from disting.verdict.cascade import steps
 from disting.verdict.decisions import Decisions

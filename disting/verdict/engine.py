@@ -37,12 +37,12 @@ from disting.verdict.result import Query, Verdict
 if TYPE_CHECKING:
     from disting.conditions.chain_view import ChainSide
     from disting.conditions.side import AnySide
+    from disting.decide.identifiability.answer import Identifiability
     from disting.experiments.experiment import MeasuredChain
     from disting.experiments.measured_view import MeasuredSide
     from disting.general.matrix_model import AnyModel
     from disting.general.network_view import NetworkSide
     from disting.network.network import Network
-    from disting.questions.identifiability.answer import Identifiability
     from disting.verdict.decisions import Decisions
 
 T = TypeVar("T")
@@ -227,7 +227,7 @@ class Engine:
         progress: Progress = silent,
     ) -> list[Identifiability]:
         """Identifiability of chains, in order; each canonical form is looked at once."""
-        from disting.questions.identifiability.analysis import IDENTIFIABILITY, in_names_of
+        from disting.decide.identifiability.analysis import IDENTIFIABILITY, in_names_of
 
         formed = [(chain, canonical(chain)) for chain in chains]
         self.answer_all(

@@ -7,6 +7,15 @@ from concurrent.futures import Executor
 from dataclasses import replace
 
 from disting.algebra.symbols import RationalFunction
+from disting.decide.identifiability import (
+    IDENTIFIABILITY,
+    Identifiability,
+    Level,
+    ParameterIdentifiability,
+    in_names_of,
+)
+from disting.decide.identifiability.chain_domains import find_chain_over_domain, is_settled
+from disting.decide.identifiability.domains import find_over_domain
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.experiments.listing import without_dead_time
@@ -19,15 +28,6 @@ from disting.general.solutions import CHEAP_UP_TO, SOLUTIONS
 from disting.model.chain import Chain
 from disting.model.question import Domain
 from disting.model.symmetry import canonical
-from disting.questions.identifiability import (
-    IDENTIFIABILITY,
-    Identifiability,
-    Level,
-    ParameterIdentifiability,
-    in_names_of,
-)
-from disting.questions.identifiability.chain_domains import find_chain_over_domain, is_settled
-from disting.questions.identifiability.domains import find_over_domain
 from disting.verdict.engine import Engine, Progress, silent
 
 Identified = Identifiability | ParameterIdentifiability

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from disting import Chain, Query, Relation, View, compare
-from disting.questions.identifiability.analysis import identifiability
+from disting.decide.identifiability.analysis import identifiability
 from tests.against_programs.draws import Tally, cases
 from tests.oracles.plain_chains import drawn_chain, plain_chain
 from tests.oracles.plain_models import by_fibres, shaped_zeros

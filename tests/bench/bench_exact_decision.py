@@ -24,8 +24,8 @@ from sympy import Symbol, expand, prod, symbols
 
 from disting import Chain, Engine, Family, Query, Relation, Settings, View
 from disting.conditions.rule import Stage
+from disting.decide.same.exact import exact_finding
 from disting.model.symmetry import canonical
-from disting.questions.same.exact import exact_finding
 from disting.verdict.result import Step
 from tests.bench.measure import in_fresh_process, seconds, table
 from tests.oracles.sympy_twin import Summary, summary

@@ -39,11 +39,11 @@ from disting.catalogs.dampers import (
 from disting.catalogs.files import SETTLED, append, damper_name, read_findings, shipped_folder
 from disting.cli import main
 from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.decide.same.evidence_check import finding_holds
+from disting.decide.same.low_cost import quick_finding, quick_profile
 from disting.model.family import Family
 from disting.model.question import Settings
 from disting.model.symmetry import canonical
-from disting.questions.same.evidence_check import finding_holds
-from disting.questions.same.low_cost import quick_finding, quick_profile
 from disting.store.scheduling import executor
 from disting.verdict.class_search import classes
 

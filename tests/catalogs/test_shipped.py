@@ -8,8 +8,8 @@ import pytest
 from disting import CatalogError, Engine, Query, Relation, View, catalog
 from disting.catalogs.build import build, false_evidence, verify, write
 from disting.catalogs.files import PROVENANCE, lines, name_of, provenance_of, shipped_folder
+from disting.decide.same.evidence_check import Witness
 from disting.errors import InputError
-from disting.questions.same.evidence_check import Witness
 
 SMALL = [(n, damped) for n in (1, 2, 3) for damped in (False, True)]
 # seconds to minutes

@@ -9,11 +9,11 @@ from itertools import combinations
 import pytest
 
 from disting import Certainty, Chain, Engine, Family, Query, Relation, Sensor, compare
+from disting.decide.same.evidence_check import Witness
+from disting.decide.same.exact import exact_finding
 from disting.evidence.decision import DeadTime
 from disting.evidence.kinds import evidence_from
 from disting.model.question import Settings
-from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_finding
 from tests.catalogs.variants import (
     originals_against_lagged,
     sensor_effects,

@@ -4,7 +4,7 @@ Lag. 1/(1 + T1 s) adds the pole -1/T1, which no zero cancels for generic T1: the
 degree grows by one, the numerator stays, so n + m + 1 grows by one and condition 1 tells a model
 with lag from the same model without, always.
 
-Dead time. A theorem tells models with from those without (see `questions.same.exact`).
+Dead time. A theorem tells models with from those without (see `decide.same.exact`).
 
 Sensor quantity. Position, velocity and acceleration are H, s H and s^2 H. Multiplication by s^k is
 one to one on rational functions and has an inverse, so it maps equivalents to equivalents and

@@ -28,6 +28,10 @@ from disting.catalogs.export import decisions_csv
 from disting.conditions.inclusion import Inclusion
 from disting.conditions.rule import positive_ways
 from disting.decide import asking
+from disting.decide.identifiability.analysis import identifiability
+from disting.decide.positive import positive_finding, proves
+from disting.decide.same.evidence_check import Witness
+from disting.decide.same.real_and_positive import by_counts, positive_share, resting_on
 from disting.evidence.kinds import evidence_from
 from disting.evidence.positive import (
     BothWays,
@@ -41,10 +45,6 @@ from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Status, target
 from disting.model.question import Answer, Domain, Settings
 from disting.model.symmetry import canonical
-from disting.questions.identifiability.analysis import identifiability
-from disting.questions.positive import positive_finding, proves
-from disting.questions.same.evidence_check import Witness
-from disting.questions.same.real_and_positive import by_counts, positive_share, resting_on
 from disting.report.payload import VIEWS, over, payload
 from disting.verdict.result import Verdict
 from tests.oracles.positive_synthesis import positive_point

@@ -9,13 +9,13 @@ import pytest
 from disting import Engine, Query, Relation
 from disting.algebra.certainty import Certainty
 from disting.conditions.rule import Finding, Outcome
+from disting.decide.same import exact
+from disting.decide.same.evidence_check import Witness
+from disting.decide.same.exact import exact_finding
 from disting.evidence.kinds import evidence_from
 from disting.fibres.ideals import Limits
 from disting.model.chain import Chain
 from disting.model.question import Settings
-from disting.questions.same import exact
-from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import exact_finding
 from disting.verdict.cascade import decide
 
 WALLED = (Chain(5, 4, 1, 5, 3, 5, damped=True), Chain(5, 4, 2, 5, 4, 5, damped=True))

@@ -11,11 +11,11 @@ from disting import Certainty, Chain, Relation, Settings, compare
 from disting.algebra.certainty import LEAST_SAFETY, joint_safety, shortfall
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.conditions.rule import EXACT, Finding, Outcome
+from disting.decide.positive import positive_finding
+from disting.decide.same.exact import by_synthesis
 from disting.evidence.conditions import Ranks
 from disting.evidence.positive import EmptyFibre, PositiveFinding, Share
 from disting.model.symmetry import canonical
-from disting.questions.positive import positive_finding
-from disting.questions.same.exact import by_synthesis
 from tests.conditions.handmade import handmade
 
 RANKS = Ranks(("b0",), 1, 0, all_rows=False)

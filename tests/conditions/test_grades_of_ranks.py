@@ -13,11 +13,11 @@ from disting.behaviour.sample import Representation
 from disting.conditions.rule import EXACT, Finding
 from disting.decide import asking
 from disting.decide.asking import resting_on_ranks
+from disting.decide.same.exact import by_synthesis
 from disting.general.any_model import same
 from disting.general.behaviour import GeneralModel
 from disting.general.matrix_model import Model
 from disting.model.question import Settings
-from disting.questions.same.exact import by_synthesis
 from disting.verdict.joint import family_safety, joint_in_words
 from disting.verdict.result import error_bound
 from tests.conditions.handmade import handmade

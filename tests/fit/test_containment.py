@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from disting.decide.inclusion.profiles import by_elements
 from disting.fit.search.candidates import figure_1, reference
 from disting.fit.search.containment import contains, embeddings
 from disting.fit.search.starts import scale
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.network import network_of
-from disting.questions.inclusion.profiles import by_elements
 from tests.fit.drives import OMEGA, dense_response, truth
 
 FREE = figure_1()  # force and sensor at mass 1

@@ -38,7 +38,7 @@ assert len(found.equivalents) == 50, found.reason
 CHAINS = """
 from disting import Engine, Family, Store, catalog, compare
 from disting.catalogs.build import build
-from disting.questions.same.low_cost import quick_finding
+from disting.decide.same.low_cost import quick_finding
 from disting.model.question import Settings
 
 build(2, damped=True, engine=Engine(store=Store.none()))

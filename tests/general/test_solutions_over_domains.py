@@ -21,9 +21,9 @@ from disting import (
 )
 from disting.catalogs.files import shipped_folder
 from disting.catalogs.network_files import name_of
+from disting.decide.identifiability.levels import ParameterIdentifiability
 from disting.general.symmetries import generators_of, symmetries_of
 from disting.model.question import Domain
-from disting.questions.identifiability.levels import ParameterIdentifiability
 from tests.oracles import solutions as oracle
 from tests.oracles.plain_network import response
 

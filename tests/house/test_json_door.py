@@ -16,7 +16,7 @@ WITHIN = {
     "behaviour/profile.py", "catalogs/catalog.py", "catalogs/files.py",
     "catalogs/network_files.py", "conditions/rule.py", "fit/search/exchange.py",
     "general/global_identifiability.py", "model/question.py",
-    "questions/identifiability/levels.py", "verdict/claim_checks.py", "verdict/engine.py",
+    "decide/identifiability/levels.py", "verdict/claim_checks.py", "verdict/engine.py",
     "general/solutions.py", "verdict/verdict_file.py",
 }  # fmt: skip
 

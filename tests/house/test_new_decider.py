@@ -59,7 +59,7 @@ CHANGES = {
         ("import DeadTime,", "import Twins, DeadTime,"),
         ("    Theorem | DeadTime | FibreAt", "    Theorem | Twins | DeadTime | FibreAt"),
     ],
-    "questions/same/exact.py": [
+    "decide/same/exact.py": [
         ("import DeadTime,", "import Twins, DeadTime,"),
         ("def by_dead_time(", FUNCTIONS),
     ],

@@ -7,7 +7,7 @@ from itertools import combinations
 from hypothesis import example, settings, strategies as st
 
 from disting import Chain, Engine, Family, Query, View, compare
-from disting.questions.same.evidence_check import Witness
+from disting.decide.same.evidence_check import Witness
 from disting.verdict.cascade import audit, decide
 from tests.laws.strategies import chains
 

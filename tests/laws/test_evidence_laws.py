@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 
 from disting import Chain, Family, Query, Relation, View
+from disting.decide.same.evidence_check import Witness
 from disting.evidence.conditions import (
     Counts,
     Embedding,
@@ -15,7 +16,6 @@ from disting.evidence.conditions import (
     Renaming,
     Supermodel,
 )
-from disting.questions.same.evidence_check import Witness
 from disting.verdict.cascade import steps
 from tests.laws.pairs import (
     EXAMPLES,

@@ -17,9 +17,9 @@ from disting import (
 from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes import combined_family, sizes_catalog
+from disting.decide.identifiability.analysis import identifiability
 from disting.model.chain import Chain, Sensor
 from disting.model.names import chain_of, name_of, read, read_together
-from disting.questions.identifiability.analysis import identifiability
 
 EXTRAS = [(), ("+b1",), ("+b3", "+b1"), ("+lag",), ("+delay", "+b2", "+lag")]
 

@@ -1,7 +1,7 @@
 """Whether a chain with positive parameters has one given receptance: proven, at a rational point,
 or not known.
 
-A second route to `disting.questions.positive`: by the chains that the inverse synthesis finds, not
+A second route to `disting.decide.positive`: by the chains that the inverse synthesis finds, not
 by the order of poles and zeros.
 
 Damped chains have finitely many solutions, all of which are listed. Undamped ones with force and

@@ -31,11 +31,11 @@ from disting import (
 )
 from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes import sizes_catalog
+from disting.decide.identifiability.analysis import identifiability
 from disting.fit import figure_1, plan, predict, select
 from disting.fit.networks import fit_networks
 from disting.measurement import FrequencyResponse, look, write_csv
 from disting.model.presentation import NotebookTable
-from disting.questions.identifiability.analysis import identifiability
 from disting.report import chain_svg
 from disting.report.notebook import table_of
 

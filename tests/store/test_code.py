@@ -69,7 +69,7 @@ def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions(
         "disting.fibres.synthesis.decide",
         "disting.general.parts",
         "disting.network.outflows",
-        "disting.questions.identifiability.analysis",
+        "disting.decide.identifiability.analysis",
     } <= set(modules_of("disting.verdict.engine"))
     assert not any(
         name.startswith(("disting.report", "disting.cli"))

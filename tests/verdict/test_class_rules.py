@@ -11,7 +11,7 @@ from disting.algebra.certainty import LEAST_SAFETY
 from disting.catalogs.dampers import damper_family
 from disting.conditions.rule import EXACT, Outcome
 from disting.conditions.sufficient import condition_8, condition_9
-from disting.questions.same.low_cost import QUICKLY
+from disting.decide.same.low_cost import QUICKLY
 from disting.verdict.class_search import classes
 from disting.verdict.engine import question_key
 

@@ -26,9 +26,9 @@ from disting import (
 )
 from disting.catalogs.dampers import DamperFamily, DamperSets, damper_family, dampers
 from disting.conditions.rule import EXACT, Outcome
+from disting.decide.same.low_cost import QUICKLY, quick_finding, quick_profile
 from disting.errors import ContradictionError
 from disting.model.question import Settings
-from disting.questions.same.low_cost import QUICKLY, quick_finding, quick_profile
 from disting.store.scheduling import executor
 from disting.verdict.class_search import classes
 from disting.verdict.engine import question_key

@@ -10,8 +10,8 @@ import pytest
 
 from disting import Chain, Experiment, Family, Query, Relation, Settings, View, verdict_file, verify
 from disting.catalogs import catalog
+from disting.decide.same.exact import by_synthesis
 from disting.model.symmetry import canonical
-from disting.questions.same.exact import by_synthesis
 from disting.verdict.verification import Status
 from tests.cli.process import called
 from tests.verdict.lies import ENGINE, missed, plain, told_again

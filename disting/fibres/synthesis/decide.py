@@ -179,7 +179,7 @@ def safety_of_point(searched: Chain) -> int:
     element is zero.
 
     Special points lie on a hypersurface of degree D^(n+1) at most (see
-    `disting.questions.same.exact`), which a random point meets with a probability of at most that
+    `disting.decide.same.exact`), which a random point meets with a probability of at most that
     degree / 2^B: for any denominators it is one of the numerators, each of 2^B - 1 numbers
     (Schwartz, Zippel). Up to DRAWS points are drawn, and either direction may have been tried.
 

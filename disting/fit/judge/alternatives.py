@@ -5,7 +5,7 @@ one candidate may stand for another only if every positive model of either has a
 equivalent in the other, within what is given:
 
 - where neither has a parameter that is given or bounded, both shares of positive equivalents are
-  "always" (see `questions.positive`);
+  "always" (see `decide.positive`);
 - where one has, a renaming of parameters by symmetry turns the one into the other and takes each
   range into that of the parameter that it becomes, both ways. A dead time and a lag that both have
   are renamed to themselves.
@@ -95,7 +95,7 @@ def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bo
         return same is not None and same.relation is Relation.INDISTINGUISHABLE
     if set(limits) & {*chain.parameters, *other.parameters}:
         # most fits neither bound nor give a parameter
-        from disting.questions.positive import renamings
+        from disting.decide.positive import renamings
 
         return all(
             any(is_within(r, limits) for r in renamings(*pair))

@@ -8,7 +8,7 @@ Where a candidate has more free parameters than the Jacobian of its transfer fun
 coefficients by these has rank, its sensitivities are dependent for all parameter values: condition
 and collinearity index are infinite, and what a computer finds is rounding. Such a candidate is
 described by the combinations that data do determine, not by a number. Rank and combinations are
-those of `disting.questions.identifiability`, at random points modulo random primes; how many
+those of `disting.decide.identifiability`, at random points modulo random primes; how many
 parameter vectors fit is not asked here, which costs more than the fit.
 """
 
@@ -18,6 +18,9 @@ from math import inf
 
 import numpy as np
 
+from disting.decide.identifiability.functions import basis
+from disting.decide.identifiability.parts import Formula
+from disting.decide.identifiability.tangent import proof_tangents
 from disting.experiments.machine_model import rank_by
 from disting.fit.judge.exclusion import Exclusion
 from disting.fit.judge.explanation import (
@@ -44,9 +47,6 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.question import Settings
-from disting.questions.identifiability.functions import basis
-from disting.questions.identifiability.parts import Formula
-from disting.questions.identifiability.tangent import proof_tangents
 from disting.statistics.covariance import expected_deviation
 from disting.statistics.lone_lines import LoneLines
 from disting.statistics.practical import NoiseModel, Practical, practical
@@ -105,7 +105,7 @@ def _told(chain: Chain, assessment: Practical, settings: Settings) -> Practical:
 def in_words(determined: Sequence[Formula]) -> str:
     """What is determinable at most; combinations that are long to read are counted.
 
-    >>> from disting.questions.identifiability.parts import monomial
+    >>> from disting.decide.identifiability.parts import monomial
     >>> in_words([monomial(k12=1, d12=-1), monomial(k12=1, m1=-1, m2=-1)])
     'not identifiable: no data determine more than k12/d12, k12/(m1*m2)'
     """

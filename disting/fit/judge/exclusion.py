@@ -32,12 +32,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2, f as f_distribution
 
+from disting.decide.identifiability.tangent import proof_tangents
 from disting.fit.search.containment import contains
 from disting.fit.search.starts import bare
 from disting.measurement.arrays import Real
 from disting.model.chain import Chain
 from disting.model.question import Settings
-from disting.questions.identifiability.tangent import proof_tangents
 from disting.statistics.covariance import VANISHING
 from disting.statistics.lone_lines import LoneLines, lone_lines
 from disting.statistics.practical import NoiseModel

@@ -57,7 +57,7 @@ def is_same_under_all(chain: Chain, other: Chain, cost: AnyCost, limits: Limits)
     and takes every range into that of the parameter that it becomes; both ways.
     """
     # a fit of one response asks for none
-    from disting.questions.positive import renamings
+    from disting.decide.positive import renamings
 
     return chain == other or all(
         any(

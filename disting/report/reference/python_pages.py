@@ -89,7 +89,7 @@ MODULES = (
     "disting.fit",
     "disting.general",
     "disting.measurement",
-    "disting.questions.identifiability",
+    "disting.decide.identifiability",
     "disting.report",
     "disting.simulation",
 )
@@ -132,7 +132,7 @@ def python_pages() -> tuple[GuidePage, ...]:
 def page_name(module: str) -> str:
     """Name of a module's page.
 
-    >>> page_name("disting.questions.identifiability")
+    >>> page_name("disting.decide.identifiability")
     'python-identifiability'
     """
     return f"python-{module.split('.')[-1]}"

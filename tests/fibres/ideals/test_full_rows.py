@@ -10,11 +10,11 @@ import sympy
 
 from disting import Certainty, Chain, Family, Outcome, Query, Relation, View, compare
 from disting.catalogs.dampers import DamperSets
+from disting.decide.same.evidence_check import Witness
+from disting.decide.same.exact import by_full_rows, by_ideals
 from disting.evidence.ideals import FullRows
 from disting.fibres.ideals import Limits, same_by_full_rows
 from disting.model.question import Settings
-from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import by_full_rows, by_ideals
 
 LIMITS = Limits(seconds=600, entries=500_000, safety=100)
 

@@ -14,6 +14,8 @@ from disting.algebra.certainty import prime, residues
 from disting.algebra.groebner.modular import long_polynomial
 from disting.catalogs.dampers import damper_catalog
 from disting.conditions.rule import Outcome
+from disting.decide.same.evidence_check import Witness
+from disting.decide.same.exact import by_shares, exact_finding, recheck_shares
 from disting.fibres.ideals import Limits, decide, tell_chains_apart
 from disting.fibres.ideals.factored_map import row_factors, shared_fibre, values
 from disting.fibres.ideals.fibre_ideal import generic_rank
@@ -29,8 +31,6 @@ from disting.model.chain import Chain
 from disting.model.question import Membership, Settings
 from disting.model.row import Row, rows_of
 from disting.model.symmetry import canonical
-from disting.questions.same.evidence_check import Witness
-from disting.questions.same.exact import by_shares, exact_finding, recheck_shares
 
 S = sympy.Symbol("s")
 

@@ -10,6 +10,7 @@ from flint import acb, fmpq, fmpq_poly
 from hypothesis import given, settings, strategies as st
 
 from disting import Query, View, compare
+from disting.decide.identifiability.tangent import proof_tangents
 from disting.fibres.ideals import coefficient_map
 from disting.fibres.synthesis.decide import decide, rational_point
 from disting.fibres.synthesis.fibre import fibre
@@ -20,9 +21,8 @@ from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.model.question import Answer, Membership
 from disting.model.row import rows_of
-from disting.questions.identifiability.tangent import proof_tangents
 from disting.verdict.engine import Engine
-from tests.questions.identifiability.oracle import solutions
+from tests.decide.identifiability.oracle import solutions
 
 
 def rubbed(n: int, damped: bool) -> list[Chain]:

@@ -10,13 +10,13 @@ import pytest
 from flint import fmpq
 
 from disting import Chain, Family
+from disting.decide.same.exact import theorem
 from disting.fibres.synthesis.fibre import fibre
 from disting.fibres.synthesis.task import Status, target
 from disting.fibres.synthesis.theorems import are_foster, are_same_by_rows
 from disting.model.question import Answer
 from disting.model.row import rows_of
 from disting.model.symmetry import canonical
-from disting.questions.same.exact import theorem
 from tests.oracles.positive_synthesis import positive_equivalent, positive_point
 
 

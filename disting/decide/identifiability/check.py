@@ -1,0 +1,74 @@
+"""Checks a finding again from what it says alone: fresh points, the stored point, exact
+identities; no search for formulas.
+"""
+
+from dataclasses import replace
+
+from disting.algebra.quotient import matrix
+from disting.behaviour.transfer import is_renaming
+from disting.decide.identifiability.answer import Identifiability
+from disting.decide.identifiability.parts import monomial
+from disting.decide.identifiability.solutions import MOST_LISTED, foster_count
+from disting.decide.identifiability.tangent import Tangent, proof_tangents
+from disting.fibres.synthesis.fibre import fibre
+from disting.fibres.synthesis.task import fraction, target
+from disting.model.chain import Chain
+
+POINTS = 3
+
+
+def confirms(answer: Identifiability, chain: Chain, seed: str = "verify") -> bool:
+    """Whether the ranks, the combinations, the symmetries and the number of solutions are true of
+    the chain.
+
+    >>> from disting.decide.identifiability.analysis import identifiability
+    >>> confirms(identifiability(Chain(3, meas_plus=2)), Chain(3, meas_plus=2))
+    True
+    """
+    fresh = proof_tangents(chain.structure, seed, POINTS)
+    ranks = answer.parameters == chain.parameters and max(
+        t.rank for t in fresh
+    ) == answer.rank == len(answer.basis)
+    return (
+        ranks
+        and all(_seen(answer, t) for t in fresh)
+        and _renamed(answer, chain)
+        and _counted(answer, chain)
+    )
+
+
+def _seen(answer: Identifiability, at: Tangent) -> bool:
+    """The combinations lie in the row space and are independent; of the parameters, only those
+    listed lie in it.
+    """
+    slopes = [c.formula.gradient(at.values, at.modulus) for c in answer.basis]
+    units = {name: [int(name == other) for other in at.values] for name in at.values}
+    singles = {monomial(**{name: 1}) for name, unit in units.items() if at.sees(unit)}
+    independent = matrix(slopes, len(at.values), at.modulus).rank() == answer.rank
+    return (
+        all(map(at.sees, slopes)) and independent and singles == {c.formula for c in answer.singles}
+    )
+
+
+def _renamed(answer: Identifiability, chain: Chain) -> bool:
+    """Every renaming is an identity of formulas."""
+    plain = {name: name for name in chain.parameters}
+    return all(
+        is_renaming(chain.structure, chain.structure, plain | dict(r.moved))
+        for r in answer.renamings
+    )
+
+
+def _counted(answer: Identifiability, chain: Chain) -> bool:
+    """As many solutions at the stored point as are listed, or as a theorem says; nothing to
+    check where they are not all.
+    """
+    if answer.most is None or answer.most > MOST_LISTED:
+        return answer.most is None or answer.most == answer.least == foster_count(chain)
+    plain = replace(chain, dead_time=False, damped=chain.damped and chain.n_masses > 1)
+    point = {name: fraction(value) for name, value in answer.point}
+    return (
+        len(fibre(plain, target(plain.structure, point)).solutions)
+        == answer.most
+        == len(answer.alternatives)
+    )
