@@ -171,9 +171,9 @@ def verify(options: argparse.Namespace) -> int:
     from disting.catalogs.files import SHIPPED_SIZES as CATALOGUED
     from disting.catalogs.sizes import verify_sizes
 
-    wrong: list[str] = []
     sizes = [n for n in options.masses if isinstance(n, int)]
     networks = [name for name in options.masses if isinstance(name, str)]
+    wrong = _wrong_by_second_opinion([*sizes, *networks], options.catalog)
     with engine_for(options) as (_, pool, progress):
         for name in networks:
             family = family_of(name)
@@ -199,6 +199,19 @@ def verify(options: argparse.Namespace) -> int:
             )
             wrong += _told(f"different sizes, {_kind(damped)}", texts)
     return 1 if wrong else 0
+
+
+def _wrong_by_second_opinion(names: list[int | str], folder: Path) -> list[str]:
+    """What the small checker finds wrong; it takes seconds, so it comes first."""
+    from disting.verdict.small_checker import opinion_on_files
+
+    wrong = list[str]()
+    for name in names:
+        pattern = f"[!n]*-{name}-*damped" if isinstance(name, int) else f"networks-{name}"
+        of_next = folder.glob(f"next-*{name}-*damped.jsonl") if isinstance(name, int) else ()
+        opinion = opinion_on_files(sorted([*folder.glob(f"{pattern}.jsonl"), *of_next]))
+        wrong += _told(f"{name}, by check.py", [*opinion.wrong], opinion.counts)
+    return wrong
 
 
 def _wrong_of_one_size(

@@ -30,6 +30,7 @@ from disting.verdict.placement_verdicts import (
 )
 from disting.verdict.result import Relation
 from disting.verdict.sides import Sides
+from disting.verdict.small_checker import opinion_on_verdict
 from disting.verdict.verdict_file import (
     DAMAGED,
     StoredVerdict,
@@ -58,7 +59,7 @@ class Verification:
 
     `verdicts`: the sentences of the verdicts, none where one does not hold; `models`: whose models
     they are on; `found_again`: what was checked; `as_written`: what the file says and no check can
-    show.
+    show; `second`: what the small checker says, which shares no code with the first.
 
     >>> from disting import verdict_file, verify
     >>> verify(verdict_file("2:1", "2:2")).status.value
@@ -71,6 +72,7 @@ class Verification:
     models: str = ""
     found_again: tuple[str, ...] = ()
     as_written: tuple[str, ...] = ()
+    second: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return summary(self, self.sentence)
@@ -92,6 +94,7 @@ class Verification:
             ("models", self.models),
             ("found again", "; ".join(self.found_again)),
             ("as written", "; ".join(self.as_written)),
+            ("check.py", "; ".join(self.second)),
         ):
             lines += [f"{name:<12}{said}"] if said else []
         return "\n".join(lines)
@@ -132,6 +135,7 @@ def _verified_file(data: Any) -> Verification:
         models=ways[0].models,
         found_again=tuple(dict.fromkeys(what for way in ways for what in way.found_again)),
         as_written=tuple(dict.fromkeys(what for way in ways for what in way.as_written)),
+        second=tuple(dict.fromkeys(what for way in ways for what in way.second)),
     )
     for status in (Status.FAILS, Status.OPEN):
         where = next((i for i, way in enumerate(ways) if way.status is status), None)
@@ -165,6 +169,9 @@ def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
         raise InputError(f"the file of the verdict is damaged ({reason})") from None
     except (*DAMAGED, DistingError, RecursionError, AssertionError) as reason:
         return Verification(Status.FAILS, f"it is damaged ({type(reason).__name__}: {reason})")
+    opinion = opinion_on_verdict(data)
+    if opinion.wrong:
+        return Verification(Status.FAILS, f"check.py finds: {opinion.wrong[0]}")
     if stored.verdict.evidence is None:
         unseen.append("it is undecided: it says nothing that evidence could show")
     return Verification(
@@ -174,6 +181,7 @@ def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
         _whose(stored, sides),
         tuple(filter(None, dict.fromkeys(seen))),
         tuple(filter(None, dict.fromkeys(written))),
+        (opinion.text,),
     )
 
 
