@@ -204,8 +204,8 @@ def verify(options: argparse.Namespace) -> int:
 def _wrong_of_one_size(
     n: int, damped: bool, folder: Path, pool: Executor | None, progress: Progress
 ) -> list[str]:
-    """What is wrong in the files of chains of one size; nothing is taken from the cache: a
-    verification computes.
+    """Faults of the files of chains of one size; nothing is taken from the cache: a verification
+    computes.
     """
     from disting.catalogs.build import verify as verify_chains, verify_dampers
     from disting.catalogs.dampers import SHIPPED_SIZES, read

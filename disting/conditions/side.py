@@ -49,11 +49,11 @@ class Side(ABC, Generic[S]):
     @property
     @abstractmethod
     def model(self) -> Model:
-        """What it reveals."""
+        """Model with the behaviour of this side."""
 
     @property
     def profiled(self) -> Model:
-        """What its profiles are computed of; models that share it share their profiles."""
+        """Model from which the profiles are computed; sides that share it share their profiles."""
         return self.model
 
     @property
@@ -63,17 +63,17 @@ class Side(ABC, Generic[S]):
 
     @property
     def premise(self) -> Premise | None:
-        """What its name leaves to be said; None of models whose name says all."""
+        """Premise that its name does not state; None if the name states all."""
         return None
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is to be known of all that is told of it."""
+        """Notes that apply to every statement on this side."""
         return ()
 
     @property
     def in_s(self) -> bool:
-        """Whether it is a function of s, so that it has Markov parameters."""
+        """True if the behaviour is a function of s and so has Markov parameters."""
         return True
 
     @property
@@ -83,7 +83,7 @@ class Side(ABC, Generic[S]):
 
     @property
     def chain_note(self) -> str:
-        """What the chain's parameters are called in it, where they have other names."""
+        """Note on the names of the chain's parameters in this model, where they differ."""
         return ""
 
     @property
@@ -107,7 +107,7 @@ class Side(ABC, Generic[S]):
         return self.model.n_states
 
     def profile(self, representation: Representation, count: int) -> Profile:
-        """What it reveals in a representation, with so many Markov parameters."""
+        """Profile in a representation, with this number of Markov parameters."""
         if (representation, count) not in self._known:
             answer = self.source(self.profiled, representation, count, self.settings)
             self._known[representation, count] = answer
@@ -122,7 +122,7 @@ class Side(ABC, Generic[S]):
 
     @property
     def has_dear_dependences(self) -> bool:
-        """Whether their search costs more than all else."""
+        """True if the search for their dependences dominates the cost."""
         return False
 
     @property
@@ -152,7 +152,9 @@ class Side(ABC, Generic[S]):
 
     @abstractmethod
     def is_renamed(self, other: Self, renaming: dict[str, str]) -> bool:
-        """Whether renaming the parameters turns its transfer functions into the others: exact."""
+        """Return True if renaming the parameters turns the transfer functions into those of the
+        other side: exact.
+        """
 
     def symmetry_with(self, other: Self) -> Renaming | None:
         """The renaming by which a symmetry of the class connects both sides, if there is one."""
@@ -174,11 +176,11 @@ class Side(ABC, Generic[S]):
 
     @abstractmethod
     def grounded(self, other: Self, found: Finding) -> Finding:
-        """What is found of `pair`, of these two: as sure as the ranks that are seen equal."""
+        """Finding of `pair` applied to these two sides: as certain as the equality of the ranks."""
 
     @abstractmethod
     def found_again(self, other: Self, evidence: Evidence) -> Finding | None:
-        """What the settings find of `pair` with evidence of this kind, where it is asked."""
+        """Finding that the rules of `pair` give with evidence of this kind, where they apply."""
 
     def exact(self, other: Self) -> Finding:
         """The exact decision, for equal ranks."""
@@ -188,8 +190,8 @@ class Side(ABC, Generic[S]):
         return self.grounded(other, self.answerer(self.exactly, self.pair(other), self.settings))
 
     def recheck(self, other: Self, evidence: Evidence) -> Finding | None:
-        """What the settings find by the exact decision with evidence of this kind: evidence that is
-        true can have been chosen, and then bounds nothing.
+        """Finding that the exact decision of `pair` gives with evidence of this kind: true evidence
+        can have been selected, and then bounds no error.
         """
         told = self.foreseen(other)
         if told is not None:
@@ -199,22 +201,26 @@ class Side(ABC, Generic[S]):
 
     @abstractmethod
     def confirms(self, other: Self, evidence: Evidence, representation: str) -> bool:
-        """Whether evidence of a verdict is true of both, seen anew; raises NotSeenError where that
-        takes too long.
+        """Return True if the evidence of a verdict holds for both sides (recomputed from scratch);
+        raises NotSeenError where that takes too long.
         """
 
     def includes(self, other: Self, evidence: InclusionEvidence) -> bool:
-        """Whether evidence of an inclusion is true of both, seen anew."""
+        """Return True if the evidence of an inclusion holds for both sides (recomputed from
+        scratch).
+        """
         return False
 
     def proves(self, other: Self, finding: PositiveFinding) -> bool:
-        """Whether evidence on the positive equivalents of the one in the other is true."""
+        """Return True if the evidence on positive equivalents of the one side in the other is
+        correct.
+        """
         return False
 
     @abstractmethod
     def admissible(self, other: Self, domain: Domain, why: Evidence | None = None) -> Finding:
-        """Whether two models that are the same over complex parameters, for this reason, are so
-        over this domain.
+        """Decide whether two models that are equivalent over complex parameters, for this reason,
+        are so over this domain.
         """
 
     @abstractmethod
@@ -224,12 +230,14 @@ class Side(ABC, Generic[S]):
         """
 
     def tells_shares(self, other: Self) -> bool:
-        """Whether it is asked which positive models have positive equivalents there."""
+        """Return True if the share of positive models with positive equivalents on the other side
+        is part of the question.
+        """
         return False
 
     @abstractmethod
     def positive(self, other: Self) -> PositiveFinding:
-        """Which positive models of the one have a positive equivalent in the other."""
+        """Positive models of this side that have a positive equivalent on the other side."""
 
     @classmethod
     def prepare_exact(cls, pairs: Sequence[tuple[Self, Self]], ask: Ask) -> None:
@@ -264,5 +272,5 @@ def by_shares_both_ways(left: AnySide, right: AnySide) -> Finding:
 
 
 def notes_of(left: AnySide, right: AnySide) -> tuple[str, ...]:
-    """What is to be known of all that is told of both."""
+    """Notes that apply to every statement on both sides."""
     return tuple(dict.fromkeys((*left.notes, *right.notes)))

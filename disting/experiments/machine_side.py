@@ -81,7 +81,9 @@ class ComparedMachine(Side[MeasuredChain]):
         return numbering(self.measured, other.measured)
 
     def is_renamed(self, other: "ComparedMachine", renaming: dict[str, str]) -> bool:
-        """Whether renaming the parameters turns all transfer functions into the others: exact."""
+        """Return True if renaming the parameters turns all transfer functions into the others:
+        exact.
+        """
         return is_renaming(self.measured, other.measured, renaming)
 
     def pair(self, other: "ComparedMachine") -> tuple[MeasuredChain, MeasuredChain]:
@@ -98,18 +100,18 @@ class ComparedMachine(Side[MeasuredChain]):
         return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
 
     def found_again(self, other: "ComparedMachine", evidence: Evidence) -> Finding | None:
-        """What is found with evidence of this kind."""
+        """Finding with evidence of this kind."""
         again: Finding | None = recheck(
             evidence, SAME_MEASURED.rows, *self.pair(other), self.settings
         )
         return again
 
     def confirms(self, other: "ComparedMachine", evidence: Evidence, representation: str) -> bool:
-        """Whether evidence of a verdict is true of both."""
+        """Return True if the evidence of a verdict holds for both sides."""
         return confirms(evidence, self.measured, other.measured, representation)
 
     def includes(self, other: "ComparedMachine", evidence: InclusionEvidence) -> bool:
-        """Whether evidence of an inclusion is true of both."""
+        """Return True if the evidence of an inclusion holds for both sides."""
         return confirms_inclusion(evidence, self.measured, other.measured)
 
     def admissible(
@@ -139,8 +141,8 @@ class ComparedMachine(Side[MeasuredChain]):
         return inclusions_under(self.measured, other.measured, profile_of)
 
     def positive(self, other: "ComparedMachine") -> PositiveFinding:
-        """Which positive models of the one have a positive equivalent in the other, where generic
-        complex ones have equivalents.
+        """Positive models of this side that have a positive equivalent on the other side, where
+        generic complex ones have equivalents.
         """
         return self.answerer(POSITIVELY, (self.measured, other.measured), self.settings)
 

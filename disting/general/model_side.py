@@ -102,7 +102,7 @@ class ComparedModel(Side[AnyModel]):
 
     @property
     def chain_note(self) -> str:
-        """What the chain's parameters are called in it."""
+        """Note on the names of the chain's parameters in this model."""
         return self.renamed_chain.note(self.name) if self.renamed_chain else ""
 
     @property
@@ -114,13 +114,13 @@ class ComparedModel(Side[AnyModel]):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What degrees count where that is not s, and which exponents are spoken of."""
+        """Notes on the variable that degrees count where it is not s, and on the exponents."""
         phrase = self.subject.powers.sentence(self.name)
         return ((phrase,) if phrase else ()) + ((GENERIC,) if self.subject.powers.weights else ())
 
     @property
     def in_s(self) -> bool:
-        """Whether powers of v are those of s, or of its root."""
+        """True if powers of v are those of s, or of its root."""
         return not self.subject.powers.weights
 
     @cached_property
@@ -145,7 +145,7 @@ class ComparedModel(Side[AnyModel]):
 
     @property
     def has_other_readings(self) -> bool:
-        """Whether its exponents can be matched in orders that are no symmetries of it."""
+        """True if its exponents can be matched in orders that are not symmetries of it."""
         return any(renaming is None for _, renaming in self.other_orders)
 
     @property
@@ -164,20 +164,22 @@ class ComparedModel(Side[AnyModel]):
         return next(numberings(self.subject, other.subject), None)
 
     def is_renamed(self, other: "ComparedModel", renaming: dict[str, str]) -> bool:
-        """Whether renaming the parameters turns this transfer function into the other: exact, by
-        the terms.
+        """Return True if renaming the parameters turns this transfer function into the other:
+        exact, by the terms.
         """
         written = self.is_writable and other.is_writable
         return written and is_renamed(self.subject, other.subject, renaming)
 
     @cached_property
     def gives(self) -> dict[str, object]:
-        """What theorems on networks say that it gives: others that give the same are the same."""
+        """Sets of functions that the model gives by theorems on networks: models with equal sets
+        are equivalent.
+        """
         return sets_of(self.subject) if self.is_writable else {}
 
     @cached_property
     def is_writable(self) -> bool:
-        """Whether its terms, in which exact decisions are made, are not too many."""
+        """True if the number of its terms, in which exact decisions are made, is not too large."""
         return is_writable(self.subject)
 
     def pair(self, other: "ComparedModel") -> tuple[AnyModel, AnyModel]:
@@ -195,15 +197,16 @@ class ComparedModel(Side[AnyModel]):
         return self._in_every_order(other, found)
 
     def found_again(self, other: "ComparedModel", evidence: Evidence) -> Finding | None:
-        """What is found with evidence of this kind."""
+        """Finding with evidence of this kind."""
         again: Finding | None = recheck(
             evidence, SAME_NETWORKS.rows, *self.pair(other), self.settings
         )
         return again
 
     def _in_every_order(self, other: "ComparedModel", finding: Finding) -> Finding:
-        """What is found with the exponents in one order, of all of them: a difference is none where
-        another order is no symmetry, and as sure as the profiles by which others are left out.
+        """Finding for all orders of the exponents, from that for one: a difference is inconclusive
+        where another order is not a symmetry, and as certain as the profiles that exclude other
+        orders.
         """
         if finding.outcome not in (Outcome.FAILS, Outcome.SOMETIMES) or not readings(self.subject):
             return finding
@@ -214,8 +217,8 @@ class ComparedModel(Side[AnyModel]):
         return replace(finding, certainty=Certainty.BOUNDED, safety=safety)
 
     def confirms(self, other: "ComparedModel", evidence: Evidence, representation: str) -> bool:
-        """Whether evidence of a verdict is true of both, as those who decide by it see them:
-        conditions know the elements of networks.
+        """Return True if the evidence of a verdict holds for both, in the representation that the
+        decision uses: conditions know the elements of networks.
         """
         one_order = Carrier.CONDITION not in evidence.claim.carriers and self.has_other_readings
         if one_order and not any(evidence.shows(d) is Relation.INDISTINGUISHABLE for d in Domain):
@@ -251,7 +254,7 @@ class ComparedModel(Side[AnyModel]):
         return inclusions_of(self.subject, other.subject, (profiles[0], profiles[1]), smaller)
 
     def includes(self, other: "ComparedModel", evidence: InclusionEvidence) -> bool:
-        """Whether evidence of an inclusion is true of both."""
+        """Return True if the evidence of an inclusion holds for both sides."""
         return confirms_inclusion(evidence, self.subject, other.subject, self.rank < other.rank)
 
     def positive(self, other: "ComparedModel") -> PositiveFinding:
@@ -269,7 +272,9 @@ class ComparedModel(Side[AnyModel]):
 def positive_question(
     left: ComparedModel, right: ComparedModel
 ) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
-    """What is asked where positive equivalents are looked for, as an engine keeps the answer."""
+    """Question of the search for positive equivalents, in the form in which an engine caches the
+    answer.
+    """
     return _question(left, right, Domain.POSITIVE)
 
 

@@ -1,3 +1,3 @@
-"""What is asked of chains beyond the conditions: same behaviour, inclusion, positive parameters,
+"""Questions on chains beyond the conditions: equivalence, inclusion, positive parameters,
 identifiability.
 """

@@ -117,7 +117,9 @@ class ComparedChain(Side[Chain]):
         return way and Renaming(tuple(way[0].items()), way[1])
 
     def is_renamed(self, other: "ComparedChain", renaming: dict[str, str]) -> bool:
-        """Whether renaming the parameters turns this transfer function into the other: exact."""
+        """Return True if renaming the parameters turns this transfer function into the other:
+        exact.
+        """
         return is_renaming(self.chain.structure, other.chain.structure, renaming)
 
     def pair(self, other: "ComparedChain") -> tuple[Chain, Chain]:
@@ -141,7 +143,7 @@ class ComparedChain(Side[Chain]):
         return resting_on_ranks(found, self.transfer_profile, other.transfer_profile)
 
     def found_again(self, other: "ComparedChain", evidence: Evidence) -> Finding | None:
-        """What is found with evidence of this kind."""
+        """Finding with evidence of this kind."""
         evidence = evidence.turned if self._is_turned(other) else evidence
         again: Finding | None = recheck(
             evidence, SAME_CHAINS.rows, *self.pair(other), self.settings
@@ -149,25 +151,27 @@ class ComparedChain(Side[Chain]):
         return again
 
     def _is_turned(self, other: "ComparedChain") -> bool:
-        """Whether `pair` has the other one first."""
+        """Return True if `pair` has the other one first."""
         return self.pair(other)[0] != self.canonical.chain
 
     def confirms(self, other: "ComparedChain", evidence: Evidence, representation: str) -> bool:
-        """Whether evidence of a verdict is true of both chains."""
+        """Return True if the evidence of a verdict holds for both chains."""
         return Witness().confirms(evidence, representation, self.chain, other.chain)
 
     def includes(self, other: "ComparedChain", evidence: InclusionEvidence) -> bool:
-        """Whether evidence of an inclusion is true of both chains."""
+        """Return True if the evidence of an inclusion holds for both chains."""
         return confirms_inclusion(evidence, self, other)
 
     def proves(self, other: "ComparedChain", share: PositiveFinding) -> bool:
-        """Whether evidence on positive equivalents in the other is true."""
+        """Return True if the evidence on positive equivalents in the other is correct."""
         return proves(share, *_canonical(self, other))
 
     def admissible(
         self, other: "ComparedChain", domain: Domain, why: Evidence | None = None
     ) -> Finding:
-        """Whether two models that are the same over complex parameters are so over this domain."""
+        """Decide whether two models that are equivalent over complex parameters are so over this
+        domain.
+        """
         if domain is Domain.POSITIVE:
             finding: Finding = found_at_once(POSITIVE_CHAINS.at_once, self, other)
             return finding
@@ -179,18 +183,18 @@ class ComparedChain(Side[Chain]):
         return inclusions(self, other)
 
     def tells_shares(self, other: "ComparedChain") -> bool:
-        """Whether both have as many masses."""
+        """Return True if both have the same number of masses."""
         return self.chain.n_masses == other.chain.n_masses
 
     def positive(self, other: "ComparedChain") -> PositiveFinding:
-        """Which positive models of the one have a positive equivalent in the other; evidence in
+        """Positive models of this chain that have a positive equivalent in the other; evidence in
         canonical names.
         """
         return self._positive(self.canonical.chain, other.canonical.chain)
 
     def has_same_positive(self, other: "ComparedChain") -> bool:
-        """Whether every positive model of either has a positive equivalent in the other, as far as
-        that is known.
+        """Return True if every positive model of either is known to have a positive equivalent in
+        the other.
         """
         return self.positive(other).share is other.positive(self).share is Share.ALWAYS
 
@@ -217,8 +221,8 @@ class ComparedChain(Side[Chain]):
 
     @classmethod
     def all_inclusions(cls, pairs: Sequence[ChainPair], ask: Ask) -> list[Inclusions]:
-        """What profiles settle at once, then what has to be asked; each pair of canonical forms
-        is looked at once.
+        """Inclusions of all pairs: first those that profiles decide, then those that need a search;
+        each pair of canonical forms is computed once.
         """
         first = {_canonical(*pair): pair for pair in reversed(pairs)}
         quick = {key: quick_closure(*pair) for key, pair in first.items()}
