@@ -72,7 +72,7 @@ class NotSeenError(DistingError):
 
 
 def short(value: object) -> str:
-    """What a user gave, as Python writes it, but no longer than an eye takes in.
+    """Short form of a user's value, as Python writes it.
 
     >>> short("a" * 99), short(10**9999), short("a\\x1b[2J")
     ("'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaa…'", 'a number of 33216 bits', "'a\\\\x1b[2J'")

@@ -262,7 +262,7 @@ def write_mat(path: Path, models: Sequence[NumberedStructure], sign: int = 1) ->
 
 
 def _plain(model: NumberedStructure, sign: int) -> dict[str, Any]:
-    """What the fields of a MATLAB struct are."""
+    """Fields of a MATLAB struct."""
     ss = state_space(model.chain, model.values, sign)
     zpk = zero_pole(model.chain, model.values, sign)
     return {

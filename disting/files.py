@@ -101,7 +101,7 @@ def as_path(path: object) -> Path:
 
 
 def read_json(path: Path, wanted: str) -> Any:
-    """What a JSON file holds, of at most 50 MB, no key twice; raises InputError."""
+    """Read a JSON file of at most 50 MB, without duplicate keys; raises InputError."""
     content = read_bounded(path, wanted)
     try:
         return json.loads(content.decode("utf-8-sig"), object_pairs_hook=unique_keys)
@@ -251,7 +251,7 @@ def _opened(path: Path) -> Iterator[BinaryIO]:
 
 
 class Format(StrEnum):
-    """What a JSON says at "format"."""
+    """Values of "format" in JSON files."""
 
     VERDICT = "disting verdict 2"
     EVERYWHERE = "disting verdicts for every place 1"
@@ -281,7 +281,7 @@ class Format(StrEnum):
 
     @property
     def description(self) -> str:
-        """What it holds and who writes it."""
+        """Content and origin of such a file."""
         return str(_read_schema(self.short)["description"])
 
 

@@ -1,4 +1,4 @@
-"""How sure a statement is, and the random points and primes at which generic facts are seen.
+"""Certainty of a statement, and the random points and primes at which generic facts are computed.
 
 A rank, a dependence or an identity of polynomials is looked at modulo a random prime near 2^61 and
 at a random point. What is non-zero there is non-zero generically: a proof. What is zero there is
@@ -102,8 +102,8 @@ class Certainty(StrEnum):
     NUMERICAL = "numerical"
 
     def in_words(self, safety: int = 0, theorem: str = "") -> str:
-        """How sure a statement is, as it is said everywhere: to a reader of a sentence, a page, a
-        notebook. `theorem` names the one that it holds by.
+        """Certainty of a statement in the words that sentences, pages and notebooks share.
+        `theorem` names the one that it holds by.
 
         >>> Certainty.THEOREM.in_words(theorem="duality theorem"), Certainty.PROVEN.in_words()
         ('proven (duality theorem)', 'proven')
@@ -283,8 +283,8 @@ def safety(size: Size, points: int) -> int:
 
 
 def enough(size: Size, asked: int) -> int:
-    """How many points to take: as many as asked, or more where an error below 2^-LEAST_SAFETY
-    needs them.
+    """Number of points to take: the requested number, or more where the error would exceed
+    2^-LEAST_SAFETY.
 
     SHARED bits are left for statements that share the bound.
 

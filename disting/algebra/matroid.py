@@ -84,8 +84,8 @@ def _flats(matrix: Words, bits: Words, modulus: int) -> list[Flat]:
 
 
 def _has_circuit(bits: Words, size: int, flats: list[Flat]) -> bool:
-    """Whether columns of rank size - 1 have a circuit of this size, from the flats of all
-    smaller ones.
+    """Return True if columns of rank size - 1 have a circuit of this size, given the flats of all
+    smaller sizes.
     """
     sets = np.zeros(1, np.uint64)
     for s in range(size):

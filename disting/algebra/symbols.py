@@ -221,9 +221,9 @@ Power = tuple[str | Sum, int]
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """How formulas are written: a `symbol`, by its name; a `power`; a first term's `minus`; a `sum`
+    """Notation of formulas: a `symbol`, by its name; a `power`; a first term's `minus`; a `sum`
     that is a factor; a product of `times`; and a quotient of two products, `over`, in which a sum
-    that stands alone above or below is written as a factor or, `bare`, as it is.
+    that is the only factor above or below is written as a factor or, `bare`, without brackets.
     """
 
     symbol: Callable[[str], str]

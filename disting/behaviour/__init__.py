@@ -1,1 +1,1 @@
-"""What input-output behaviour reveals of a model."""
+"""Information on a model in its input-output behaviour."""

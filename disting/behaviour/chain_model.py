@@ -89,7 +89,7 @@ def is_sign_free(structure: Structure) -> bool:
 
 
 def _at_ones(structure: Structure) -> tuple[list[bool], list[bool]]:
-    """Which coefficients are not zero at all parameters = 1, over the integers."""
+    """Flags of the coefficients that are nonzero at all parameters = 1, over the integers."""
     ones = {name: fmpz_poly([1]) for name in structure.parameters}
     num, den = plain_receptance(structure, ones, fmpz_poly([0, 1]), fmpz_poly([1]))
     return [False] * structure.sensor_order + [bool(c) for c in num.coeffs()], [
@@ -98,7 +98,7 @@ def _at_ones(structure: Structure) -> tuple[list[bool], list[bool]]:
 
 
 def _written_out(structure: Structure) -> tuple[list[bool], list[bool]]:
-    """Which coefficients are not the polynomial 0."""
+    """Flags of the coefficients that are not the zero polynomial."""
     num, den = (
         [not c.is_zero() for c in coefficients(p, "s")]
         for p in numerator_and_denominator(structure)
@@ -125,7 +125,7 @@ class ChainModel:
 
     @property
     def dead_time(self) -> bool:
-        """Whether the chain has one."""
+        """True if the chain has a dead time."""
         return self.structure.dead_time
 
     @property

@@ -42,7 +42,7 @@ class NoMatroid:
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """What one model reveals in one representation.
+    """Properties of one model in one representation.
 
     `labels` of the moment invariants; `free` marks the non-constant ones; `constants` holds the
     values of the others ("" where free); `degrees` (numerator, denominator) of (25), of several
@@ -75,7 +75,7 @@ class Profile:
         return frozenset(label for label, free in zip(self.labels, self.free, strict=True) if free)
 
     def describes_all(self, other: "Profile") -> bool:
-        """Whether both summaries together are exhaustive: N_S1 + N_S2 Markov parameters
+        """Return True if both summaries together are exhaustive: N_S1 + N_S2 Markov parameters
         (section 4.3), or any coefficients.
         """
         return (
@@ -198,8 +198,8 @@ def from_samples(
 
 
 def _constants_known(labels: Sequence[str], free: Sequence[bool], proven: frozenset[str]) -> bool:
-    """Whether all rows that look constant are proven to be: then no more rows than the free
-    ones can be independent.
+    """Return True if all rows that look constant are proven constant: then at most the free rows
+    can be independent.
     """
     return all(
         is_constant or label in proven for label, is_constant in zip(labels, free, strict=True)

@@ -37,7 +37,7 @@ Derivatives = tuple[int, list[int]]
 
 
 class Representation(StrEnum):
-    """How the input-output behaviour is written down."""
+    """Representation of the input-output behaviour."""
 
     TF = "tf"
     MARKOV = "markov"

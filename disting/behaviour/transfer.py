@@ -54,7 +54,7 @@ class Arrangement(Protocol):
 
     @property
     def elements(self) -> tuple[Element, ...]:
-        """What adds a term to A(s), by the name of its value."""
+        """Elements that add a term to A(s), by the names of their values."""
 
     @property
     def ports(self) -> Ports:
@@ -70,7 +70,7 @@ class Arrangement(Protocol):
 
     @property
     def lag(self) -> bool:
-        """Whether the force has a lag."""
+        """True if the force has a lag."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -294,8 +294,8 @@ def transfer_function(
 
 
 def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> bool:
-    """Whether renaming the left parameters turns the left transfer function into the right one: an
-    exact identity.
+    """Return True if renaming the left parameters turns the left transfer function into the right
+    one: an exact identity.
 
     A dead time is a factor of its own, so it can only become the other's dead time.
     """
@@ -305,7 +305,9 @@ def is_renaming(left: Structure, right: Structure, renaming: dict[str, str]) -> 
 
 
 def become(a: Quotient, b: Quotient, renaming: Mapping[str, str]) -> bool:
-    """Whether renaming turns one numerator and its denominator into the other ones: an identity."""
+    """Return True if renaming turns one numerator and its denominator into the other ones: an
+    identity.
+    """
     ring = symbols([str(g) for g in b[1].context().gens()])
     num, den = (rename_symbols(p, ring, renaming) for p in a)
     return (num, den) == b or bool(num * b[1] == b[0] * den)

@@ -140,7 +140,7 @@ def _shares(decided: Decisions, i: int, j: int) -> Record:
 
 
 def _only_by(part: str, decided: Decisions, i: int, j: int) -> bool:
-    """Whether this part decides, not an earlier one."""
+    """Return True if this part decides the pair and no earlier part does."""
     domain = decided.query.view.domain
     where = part if domain is Domain.COMPLEX else Stage.PARAMETERS
     return (i, j) in decided.steps and decided.steps[i, j].representation == where
@@ -303,11 +303,11 @@ def verify_networks(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> tuple[list[str], int]:
-    """What is wrong with the file of a family, in sentences: its bytes against those that are
-    computed now, and every evidence on a pair by itself, at fresh points; and the number of pairs
-    that were not searched again, as a brief search had left them open. `search_open` repeats these
-    searches, which takes most of the time of a large family and proves nothing where they end as
-    before.
+    """Faults of the file of a family, in sentences: its bytes are compared with those computed now,
+    and every piece of evidence on a pair is checked by itself, at fresh points; also the number of
+    pairs that were not searched again, because a brief search had left them open. `search_open`
+    repeats these searches, which takes most of the time of a large family and proves nothing where
+    they end as before.
 
     Digits of rounded equivalents are looked at with the evidence (see `without_digits`).
     """

@@ -105,15 +105,13 @@ class StoredPair:
 
     @cached_property
     def _steps(self) -> dict[Stage, Step]:
-        """What decides at each stage over complex parameters."""
+        """Deciding step of each stage over complex parameters."""
         stages = (stage for stage in View.EXACT.representations if stage in self.record)
         return {stage: _step(stage, repr(self.record[stage])) for stage in stages}
 
     @cached_property
     def _both_ways(self) -> dict[str, Any]:
-        """What is said of inclusions and shares, where the pair is decided over complex
-        parameters.
-        """
+        """Record of inclusions and shares, where the pair is decided over complex parameters."""
         settled = self.step(View.EXACT)
         if settled is None:
             return {}
@@ -142,7 +140,7 @@ class StoredPair:
 
     @cached_property
     def _positively(self) -> Step | None:
-        """What the shares of both sides give, if they are asked for: of models that are
+        """Result of the shares of both sides, if they are needed: for models that are
         indistinguishable over complex parameters.
         """
         own_finding, other_finding = self._shares
@@ -265,7 +263,7 @@ class Catalog(NotebookTable):
 
     @property
     def damped(self) -> bool:
-        """Whether every spring has a damper beside it."""
+        """True if every spring has a damper in parallel."""
         return bool(self.record(0)["damped"])
 
     @cached_property
@@ -408,7 +406,7 @@ class Catalog(NotebookTable):
 
     @cached_property
     def _known(self) -> dict[object, Any]:
-        """What was asked for: pages ask a few times for each verdict, and for the groups."""
+        """Cache of verdicts and groups: pages request each of them several times."""
         return {}
 
     def forget(self) -> None:

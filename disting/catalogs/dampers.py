@@ -57,7 +57,7 @@ COLUMNS = ("left", "right", "relation", "decided_by", "domain", "damped", "quant
 
 
 class DamperSets(StrEnum):
-    """Which sets of ground dampers: none or a single one, as in Fig. 14, or all 2^N."""
+    """Sets of ground dampers: none or a single one, as in Fig. 14, or all 2^N."""
 
     SINGLE = "single"
     ALL = "all"
@@ -100,7 +100,7 @@ class DamperTable:
 
     @property
     def domain(self) -> Domain:
-        """Which parameters the verdicts are about."""
+        """Parameter domain of the verdicts."""
         return self.decided.query.view.domain
 
     def relation(self, left: Masses, right: Masses) -> Relation:

@@ -50,7 +50,9 @@ Record = dict[str, Any]
 
 
 def read_findings(canonical_chains: Iterable[Chain], folder: Path | None = None) -> Findings:
-    """What is settled of these canonical chains: in the shipped file, and in the folder's own."""
+    """Stored findings on these canonical chains: from the shipped file and from the given
+    folder.
+    """
     named = {str(chain): chain for chain in canonical_chains}
     findings = Findings()
     folders = dict.fromkeys(where.resolve() for where in (shipped_folder(), folder) if where)
@@ -140,7 +142,9 @@ def read_records(path: Path) -> Records:
 
 
 def _is_complete(records: Records, models: int) -> bool:
-    """Whether the lines are those of all models, then of all pairs, by how they begin."""
+    """Return True if the lines are those of all models, then of all pairs, judged by how they
+    begin.
+    """
     numbers = range(1, models + 1)
     heads = [f'{{"model":{i},' for i in numbers]
     heads += [f'{{"left":{i},"right":{j},' for i, j in combinations(numbers, 2)]

@@ -1,4 +1,4 @@
-"""What was decided with much work on families of networks, shipped: `disting catalog families`.
+"""Shipped results of long computations on families of networks: `disting catalog families`.
 
 `networks-<family>.jsonl`: a header; a line a network with its parameters' identifiability and, as
 `group`, the number of its class over complex parameters, 0 where it is alone; then a line a pair
@@ -145,7 +145,7 @@ def representatives(sides: Sequence[NetworkSide]) -> list[int]:
 
 
 def _is_searched(sides: Sequence[NetworkSide], i: int, j: int) -> bool:
-    """Whether one of them is no chain: chains have their own ways."""
+    """Return True if at least one of them is not a chain: chains have deciders of their own."""
     return sides[i].chain is None or sides[j].chain is None
 
 

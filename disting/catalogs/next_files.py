@@ -1,5 +1,5 @@
-"""What to measure next as files, shipped for the groups of indistinguishable structures of 2 to
-5 masses.
+"""Shipped files of further measurements, for the groups of indistinguishable structures of 2 to 5
+masses.
 
 `next-<masses>-<undamped|damped>.jsonl`: a header, then a line a group of structures that one
 measurement cannot tell apart over complex parameters: its `group` (numbers of the structures), and
@@ -51,7 +51,7 @@ def name_of(n_masses: int, damped: bool, dampers: bool = False) -> str:
 
 @dataclass(frozen=True)
 class NextCatalog:
-    """What to measure next for all groups of a family; `records` is the file's content.
+    """Further measurements for all groups of a family; `records` is the file's content.
 
     `sets` of dampers to the ground, if any: then structures are counted from 0, each of the family
     with each set, else from 1.
@@ -102,9 +102,9 @@ class NextCatalog:
         return self.groups[at - 1] if at else (number,)
 
     def further(self, numbers: Sequence[int], costs: Costs | None = None) -> Menu[Chain] | None:
-        """What to measure next to tell these structures of one group apart, in this order; None
-        where they are no two of one group, or a kind with a cost is not in the file. Raises
-        CatalogError for a damaged record.
+        """Further measurements that distinguish these structures of one group, in this order; None
+        if they are not at least two structures of one group, or if a kind with a cost is not in the
+        file. Raises CatalogError for a damaged record.
         """
         costs = costs or Costs()
         places = {self._place.get(m) for m in numbers}
@@ -122,8 +122,8 @@ class NextCatalog:
 
 @cache
 def next_catalog(n_masses: int, *, damped: bool = True, dampers: bool = False) -> NextCatalog:
-    """What is shipped, of structures with `dampers` to the ground or of those without; raises
-    CatalogError where there is nothing.
+    """Shipped catalogue of further measurements, of structures with `dampers` to the ground or
+    without; raises CatalogError where there is none.
 
     >>> found = next_catalog(3, damped=True).further((1, 11))
     >>> [kind.name for kind in found.kinds if found.anywhere(kind)]
@@ -212,8 +212,8 @@ def verify_next(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> list[str]:
-    """What is wrong with the file of a catalogue, in sentences: its bytes against those that are
-    computed now.
+    """Faults of the file of a catalogue, in sentences: its bytes are compared with those computed
+    now.
     """
     family, dampers = stored.family, isinstance(stored, DamperFamily)
     kind = family.n_masses, family.damped, dampers

@@ -1,5 +1,5 @@
-"""What a catalogue of chains holds on their identifiability over complex parameters: made known to
-an engine, and as it is over positive parameters.
+"""Identifiability of chains over complex parameters, recalled from a catalogue: passed to an
+engine, and converted to positive parameters.
 """
 
 from functools import lru_cache

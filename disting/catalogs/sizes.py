@@ -152,7 +152,7 @@ class SizesCatalog(NotebookTable):
 
     @property
     def damped(self) -> bool:
-        """Whether every spring has a damper beside it."""
+        """True if every spring has a damper in parallel."""
         return self.catalogs[0].damped
 
     @property
@@ -378,8 +378,8 @@ def verify_sizes(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> list[str]:
-    """What is wrong with the file, in sentences: its bytes against those that are computed now,
-    and every piece of evidence by itself.
+    """Faults of the file, in sentences: its bytes are compared with those computed now, and every
+    piece of evidence is checked by itself.
     """
     path = folder / f"{name_of(damped)}.jsonl"
     if not path.exists() and folder.resolve() != shipped_folder().resolve():

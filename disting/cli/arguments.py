@@ -174,7 +174,7 @@ def add_damped(parser: argparse.ArgumentParser) -> None:
 
 
 def is_damped(options: argparse.Namespace) -> bool:
-    """Whether the springs of numbered chains have dampers, which they have if nothing is said."""
+    """Return True if the springs of numbered chains have dampers (the default)."""
     return DAMPED if options.damped is None else bool(options.damped)
 
 
@@ -239,7 +239,9 @@ class _Refused(argparse.Action):
 
 
 def add_deciding(parser: argparse.ArgumentParser) -> None:
-    """What decides, and over which parameters; the help ends with the list of conditions."""
+    """Add the options that select the conditions and the parameter domain; the help ends with the
+    list of conditions.
+    """
     rows = (f"  {r.name}  {r.title}: {r.text}" for r in RULES.values() if r.is_condition)
     parser.epilog = "\n".join(["conditions that verdicts name:", *rows])
     parser.formatter_class = argparse.RawDescriptionHelpFormatter

@@ -202,7 +202,7 @@ def verify(options: argparse.Namespace) -> int:
 
 
 def _wrong_by_second_opinion(names: list[int | str], folder: Path) -> list[str]:
-    """What the small checker finds wrong; it takes seconds, so it comes first."""
+    """Findings of the small checker; it takes seconds, so it comes first."""
     from disting.verdict.small_checker import opinion_on_files
 
     wrong = list[str]()
@@ -217,8 +217,8 @@ def _wrong_by_second_opinion(names: list[int | str], folder: Path) -> list[str]:
 def _wrong_of_one_size(
     n: int, damped: bool, folder: Path, pool: Executor | None, progress: Progress
 ) -> list[str]:
-    """What is wrong in the files of chains of one size; nothing is taken from the cache: a
-    verification computes.
+    """Faults of the files of chains of one size; nothing is taken from the cache: a verification
+    computes.
     """
     from disting.catalogs.build import verify as verify_chains, verify_dampers
     from disting.catalogs.dampers import SHIPPED_SIZES, read

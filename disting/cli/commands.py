@@ -1,4 +1,4 @@
-"""Which commands there are, what each is for, and which module runs it.
+"""Table of the commands: the purpose of each and the module that runs it.
 
 The arguments of a command are declared in its own module, which is imported when the command is
 named: it takes longer than most commands run. Those of `fit` and `plan` stand apart from what runs
@@ -29,7 +29,7 @@ class Command:
     brief: str = ""
 
     def work(self) -> Callable[[argparse.Namespace], int]:
-        """What runs it, imported."""
+        """Import the function that runs the command."""
         return self._of(self.module, self.run)
 
     def declare(self, parser: argparse.ArgumentParser) -> None:

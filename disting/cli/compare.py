@@ -86,7 +86,7 @@ def _over_complex(verdict: Verdict) -> str:
 
 
 def _inclusion(verdict: Verdict) -> list[str]:
-    """What is said of models of unequal rank."""
+    """Lines on inclusion of models of unequal rank."""
     both = verdict.inclusions
     if both is None:
         return []
@@ -113,8 +113,8 @@ def both_ways(
     where: str = "positive",
     shares: Sequence[PositiveFinding | None] = (),
 ) -> Iterator[str]:
-    """Which positive models of each side have an equivalent on the other side, as far as that is
-    told: by the verdict, or by the shares of both sides that are given, `where` they were counted.
+    """Lines on the positive models of each side that have an equivalent on the other side, as far
+    as known: from the verdict, or from the given shares of both sides, counted `where`.
     """
     names = (verdict.left, verdict.right)
     shares = shares or (verdict.left_positive, verdict.right_positive)
@@ -155,9 +155,7 @@ def in_order(chains: Sequence[Chain], verdict: Verdict) -> list[Chain]:
 
 
 def shipped_ranks(chains: Sequence[Chain]) -> tuple[Known, ...] | None:
-    """How much of two chains is determined, as their catalogues have it; None if none tells of
-    them.
-    """
+    """Known ranks of two chains from their catalogues; None if no catalogue has them."""
     a, b = chains
     if not all(_is_shipped(chain) for chain in chains):
         return None
@@ -167,7 +165,7 @@ def shipped_ranks(chains: Sequence[Chain]) -> tuple[Known, ...] | None:
 
 
 def _is_shipped(chain: Chain) -> bool:
-    """Whether a catalogue tells of it."""
+    """Return True if a catalogue contains the chain."""
     plain = replace(chain, ground_dampers=(), lag=False, dead_time=False) == chain
     acceleration = chain.sensor is Sensor.ACCELERATION
     return plain and acceleration and chain.n_masses in SHIPPED_SIZES

@@ -249,7 +249,7 @@ def _sign(table: DamperTable, over_complex: DamperTable, i: int, j: int) -> str:
 
 
 def legend(domain: Domain) -> str:
-    """What the signs mean, over which parameters."""
+    """Legend of the signs, with the parameter domain."""
     signs = ", ".join(
         f"{sign} {said}"
         for sign, said in MEANING.items()
@@ -266,7 +266,7 @@ def legend(domain: Domain) -> str:
 
 
 def summary(table: DamperTable, over_complex: DamperTable) -> str:
-    """How many pairs are what, and the groups that cannot be told apart."""
+    """Number of pairs by relation, and the groups that cannot be distinguished."""
     pairs = list(combinations(range(len(table.sets)), 2))
     counts = relations_in_words(table.decided.relation(i, j) for i, j in pairs)
     signs = [_sign(table, over_complex, i, j) for i, j in pairs]

@@ -142,7 +142,7 @@ def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> S
 def _within(
     chains: Sequence[Chain], limits: Mapping[str, tuple[str, str]]
 ) -> tuple[PositiveFinding, PositiveFinding]:
-    """Which positive models of each chain, within ranges, have an equivalent in the other."""
+    """Positive models of each chain, within ranges, that have an equivalent in the other."""
     names = dict.fromkeys(name for chain in chains for name in chain.parameters)
     unknown = sorted(limits.keys() - names.keys())
     if unknown:
@@ -225,6 +225,6 @@ def _drawn(chain: Chain, experiments: Sequence[Experiment]) -> str:
 
 
 def _placed(places: Places, left: str, right: str) -> str:
-    """Which mass is which."""
+    """Sentence that maps the masses of one chain to those of the other."""
     pairs = ", ".join(f"{a}/{b}" for a, b in places)
     return f"masses {pairs} of {left}/{right}"

@@ -83,7 +83,7 @@ def _models(parser: argparse.ArgumentParser) -> None:
 
 
 def _forms(parser: argparse.ArgumentParser) -> None:
-    """How the result is written."""
+    """Add the options for the format of the result."""
     form = parser.add_mutually_exclusive_group()
     add_json(form, "the result", alone=True)
     form.add_argument(
@@ -172,7 +172,9 @@ def _listing(listing: Listing) -> Iterator[str]:
 
 
 def _placed(listing: Listing) -> str:
-    """Which mass of the given model is which here, where experiments name some."""
+    """Sentence that maps the masses of the given model to those here, where experiments name
+    some.
+    """
     places = ", ".join(f"{a}/{b}" for a, b in listing.places)
     return f", masses {places}" if places else ""
 

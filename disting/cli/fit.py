@@ -98,7 +98,7 @@ def _selected(
     home: Chain | None,
     controller: Controller | None,
 ) -> Selection:
-    """What is found with these options; `home` names the places of further responses."""
+    """Selection found with these options; `home` names the places of further responses."""
     with engine_for(options) as (engine, pool, progress):
         selection = select(
             measured.train,

@@ -138,7 +138,7 @@ def _responses(group: argparse._ArgumentGroup) -> None:
 
 
 def _reading(group: argparse._ArgumentGroup) -> None:
-    """What of the files is read."""
+    """Add the options that select the columns and responses to read."""
     text = (
         "any column of the response, by header or number (default: the first response); a column"
         " that belongs to none is taken as gain; all: they are repeats of one"
@@ -163,7 +163,7 @@ def _reading(group: argparse._ArgumentGroup) -> None:
 
 
 def _quantities(group: argparse._ArgumentGroup) -> None:
-    """What the numbers of the files mean."""
+    """Add the options that give the meaning and units of the numbers in the files."""
     text = (
         "what the sensor shows (default: what the file says, else acceleration; of a record in time"
         " position)"
@@ -203,7 +203,7 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
 
 
 def _counted(group: argparse._ArgumentGroup) -> None:
-    """Which lines of the files count."""
+    """Add the options that select the lines of the files to use."""
     group.add_argument(
         "--band", type=frequency_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
     )
@@ -216,7 +216,7 @@ def _counted(group: argparse._ArgumentGroup) -> None:
 
 
 def _structures(group: argparse._ArgumentGroup) -> None:
-    """Which structures are fitted."""
+    """Add the options that select the structures to fit."""
     text = (
         "networks instead of chains: a text such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4', a"
         " file of models, or a family such as cells-4; several at once, and may be repeated; with"
@@ -279,7 +279,7 @@ def _ports(group: argparse._ArgumentGroup) -> None:
 
 
 def _known(group: argparse._ArgumentGroup) -> None:
-    """What is known of their parameters and verdicts."""
+    """Add the options for known parameters and verdicts."""
     group.add_argument(
         "--fix",
         type=known_value,
@@ -298,7 +298,7 @@ def _known(group: argparse._ArgumentGroup) -> None:
 
 
 def _choices(group: argparse._ArgumentGroup) -> None:
-    """What is minimised, and what is admissible."""
+    """Add the options for the objective and for admissible results."""
     group.add_argument(
         "--case",
         type=int,
@@ -328,7 +328,7 @@ def _choices(group: argparse._ArgumentGroup) -> None:
 
 
 def _control(group: argparse._ArgumentGroup) -> None:
-    """What the model is for."""
+    """Add the options for the intended use of the model."""
     text = (
         "a controller around the sensor, such as P=2,I=30,D=0.01,Tf=0.001,loop=velocity (position,"
         " acceleration; cascade with a position gain V=20), or a JSON file with these names: its"

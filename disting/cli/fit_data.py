@@ -323,7 +323,7 @@ def _experiment(
 
 
 def _measured(name: str, value: str) -> str:
-    """What was added to a machine has a size that is known."""
+    """Check that the size of a change to the machine is a number."""
     if value.endswith(GENERIC):
         raise InputError(f"a known {name} that was measured with has a number, not {GENERIC}")
     return value

@@ -1,4 +1,6 @@
-"""What disting fit prints: three lines, what is not excluded, then criteria and parameters."""
+"""Printed output of disting fit: three lines, the structures that are not excluded, then criteria
+and parameters.
+"""
 
 from collections.abc import Iterator, Sequence
 from math import isfinite
@@ -78,7 +80,7 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
 
 
 def _criteria(selection: Selection, folded: Folded) -> Iterator[str]:
-    """How many candidates were fitted, and the numbers of the best of each line."""
+    """Number of fitted candidates, and the figures of the best candidate of each line."""
     left = [line.best.candidate for line in folded.lines]
     yield (
         f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
@@ -132,14 +134,16 @@ def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
 
 
 def _lines(selection: Selection) -> str:
-    """How much data there is."""
+    """Amount of data."""
     sizes = [str(len(part.measured)) for part in selection.task.cost.parts]
     several = f" of {len(sizes)} responses" if len(sizes) > 1 else ""
     return f"{' + '.join(sizes)} frequency lines{several}"
 
 
 def _each(selection: Selection) -> Iterator[str]:
-    """What the judged data of each of several responses say, and what says nothing."""
+    """Lines on the judged data of each of several responses, and on responses without
+    information.
+    """
     judging, c = selection.judging, selection.described
     said = explanations(judging, c.residual, c.missed, selection.explanation.scatter)
     by_setup = dict(zip((setup.text for setup in judging.setups), said, strict=True))
@@ -199,7 +203,9 @@ def _set(selection: Selection, folded: Folded) -> Iterator[str]:
 
 
 def _beside(selection: Selection, line: Line) -> Iterator[str]:
-    """What behaves as a structure of the line, what may, and what contains one."""
+    """Structures equivalent to one of the line, possibly equivalent ones, and those that contain
+    one.
+    """
     for twin in line.best.twins:
         values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
         free = f" (one of many sets of values, {twin.free_choices} free)" * (twin.free_choices > 0)
@@ -219,7 +225,7 @@ def _beside(selection: Selection, line: Line) -> Iterator[str]:
 
 
 def _relied_on(selection: Selection) -> Iterator[str]:
-    """What holds for all of them."""
+    """Assumptions that hold for all of them."""
     if selection.relied_on:
         yield ""
         only = hold(selection) and f", {hold(selection)},"
@@ -322,8 +328,8 @@ def _results(
 
 
 def _alternatives(selection: Selection) -> Iterator[str]:
-    """What has the same positive models, what has some of them, what is open; always with the
-    domain.
+    """Structures with the same positive models, those with some of them, and open cases; always
+    with the domain.
     """
     by_relation: dict[Relation, list[Chain]] = {}
     for a in selection.alternatives:

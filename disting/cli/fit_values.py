@@ -1,4 +1,4 @@
-"""How values of the options of disting fit are read; nothing here loads numerical libraries."""
+"""Parsing of the option values of disting fit; nothing here loads numerical libraries."""
 
 import argparse
 import re

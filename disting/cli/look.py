@@ -142,7 +142,7 @@ def _seen(
 
 
 def _changes(options: argparse.Namespace, which: int = 0) -> Iterator[partial[FrequencyResponse]]:
-    """What a fit does with a response before it computes with it."""
+    """Preprocessing steps that a fit applies to a response before it computes with it."""
     yield partial(in_units, options=options)
     if options.band:
         yield partial(FrequencyResponse.masked, low=options.band[0], high=options.band[1])

@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
-    """What a text names: a network, a chain, file.json:name, or all models of file.json."""
+    """Models that a text names: a network, a chain, file.json:name, or all models of file.json."""
     if text.endswith(".json"):
         return list(read_models(Path(text)))
     path, name = split_reference(text)
@@ -84,7 +84,7 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
 
 
 def _counted(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:
-    """How many of the others do the same."""
+    """Sentence with the number of the others that are equivalent."""
     same = [x for x in equivalents if x.verdict.relation is Relation.INDISTINGUISHABLE]
     return (
         f"{text}: of {others} {len(same)} can do the same for all positive values,"
@@ -118,7 +118,7 @@ def _exception(alternatives: Alternatives) -> Iterator[str]:
 
 
 def _mark(options: argparse.Namespace) -> str:
-    """What a line of words begins with where formulas are source."""
+    """Prefix of a text line in output whose formulas are source."""
     return "% " if options.latex else "# " if options.sympy else ""
 
 

@@ -24,7 +24,7 @@ MOST_TERMS = 30  # of a transfer function that is written out
 
 
 def is_network(text: str, notation: str = "") -> bool:
-    """Whether a text is that of a network, not the name of a chain.
+    """Return True if a text denotes a network, not the name of a chain.
 
     >>> is_network("R0-p(R1,C1)"), is_network("3:1+b2")
     (True, False)
@@ -33,7 +33,7 @@ def is_network(text: str, notation: str = "") -> bool:
 
 
 def models_of(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
-    """What is named by each text: a chain, a network in a notation, a model file.json:name."""
+    """Models that the texts name: a chain, a network in a notation, a model file.json:name."""
     if options.also and (options.prove or getattr(options, "bound", ())):
         raise InputError(
             "with --also the verdict is on several experiments: leave --prove and --bound away"

@@ -127,7 +127,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _explain(has_profiles: bool, has_sets: bool, several: bool, domain: Domain) -> None:
-    """What the columns mean."""
+    """Print the meaning of the columns."""
     print("force, sensor: what it acts or looks on, and against (0 the ground)")
     said = "" if has_profiles else f"; {NOT_ASKED} not asked (--ranks asks)"
     print("n/m degrees of (25), free non-constant coefficients, par parameters,")
@@ -224,7 +224,7 @@ def _under_experiments(
     pool: Executor | None,
     progress: Progress,
 ) -> list[ParameterIdentifiability]:
-    """What the chains as they are and these experiments determine together."""
+    """Parameters that the chains as given and these experiments determine together."""
     experiments = tuple(dict.fromkeys([Experiment(), *also]))
     asked = [MeasuredChain(chain, experiments) for chain in family]
     engine.answer_all(IDENTIFIABLE, [(m,) for m in asked], executor=pool, progress=progress)
@@ -232,8 +232,8 @@ def _under_experiments(
 
 
 def _sets(found: Identified) -> str:
-    """How many parameter sets have one behaviour: the numbers found at random values, where they
-    are known to depend on the values.
+    """Number of parameter sets with the same behaviour: the numbers found at random values, where
+    they are known to depend on the values.
     """
     if found.level is Level.NOT:
         return "∞"

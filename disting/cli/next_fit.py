@@ -72,8 +72,8 @@ def network_advice(
     executor: Executor | None,
     progress: Progress,
 ) -> NetworkAdvice | None:
-    """What to measure next on the networks that the named fit left; None where it is a fit of
-    chains. Raises InputError.
+    """Recommended next measurements for the networks that remain after the named fit; None for a
+    fit of chains. Raises InputError.
     """
     source = _source(options)
     if not is_of_networks(Path(source)):
@@ -159,8 +159,8 @@ def plain(lead: ChainAdvice) -> dict[str, object]:
 
 
 def in_text(lead: ChainAdvice, menus: Sequence[str]) -> str:
-    """What to measure first, the structures that are left, and the menus of those that cannot be
-    told apart.
+    """Text of the recommended first measurement, the structures that remain, and the menus for
+    those that cannot be distinguished.
     """
     if len(lead.left) == 1:
         return first_sentence(lead)

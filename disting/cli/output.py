@@ -119,8 +119,8 @@ def written_folder(text: str) -> Path:
 
 
 def _takes_files(folder: Path) -> bool:
-    """Whether a file can be made there: tried, since permissions do not tell it of all folders, nor
-    of all users.
+    """Return True if a file can be created in the folder: tested by creating one, since permissions
+    are not reliable for all folders and users.
     """
     from tempfile import TemporaryFile
 

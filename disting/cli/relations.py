@@ -1,5 +1,5 @@
-"""What several commands share: how conditions and views are asked for, and how relations are told,
-on a terminal in colour, which their words tell too.
+"""Functions that several commands share: options for conditions and views, and the output of
+relations, on a terminal in colour, always in words too.
 
 Nothing is coloured where standard output is no terminal, where the environment variable NO_COLOR
 is set (https://no-color.org), and where TERM is dumb.
@@ -58,7 +58,7 @@ def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: i
 
 
 def relations_in_words(relations: Iterable[Relation]) -> str:
-    """How many pairs are what; SOMETIMES only where there are any.
+    """Number of pairs by relation; SOMETIMES only where it occurs.
 
     >>> relations_in_words([Relation.DISTINGUISHABLE, Relation.SOMETIMES])
     '1 distinguishable, 0 indistinguishable, 1 sometimes, 0 undecided'
@@ -70,7 +70,7 @@ def relations_in_words(relations: Iterable[Relation]) -> str:
 
 
 def rules_in_words(counts: dict[str, int], domain: Domain) -> str:
-    """How many pairs each rule decides."""
+    """Number of pairs that each rule decides."""
     return (
         ", ".join(
             f"{n} by {RULES[rule].in_words(domain)}" for rule, n in counts.items() if rule and n

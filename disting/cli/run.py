@@ -144,7 +144,9 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2)
 
     def _plain(self, message: str) -> str:
-        """What argparse says of a missing word or a wrong number, with what belongs there."""
+        """Message of argparse about a missing word or a wrong number, completed with the expected
+        value.
+        """
         if match := re.fullmatch(r"the following arguments are required: ([^,]+).*", message):
             return f"{match[1]} is missing{self._meaning(match[1])}"
         if match := re.fullmatch(r"argument (.+): expected one argument", message):
@@ -297,7 +299,7 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 
 def _kept(options: Namespace) -> str:
-    """What there is to say of the cache, which is done without where somebody asks for that."""
+    """Note on the cache, empty if it was disabled on request."""
     from disting.store.store import MEMORY, NOWHERE, locate
 
     without = getattr(options, "no_cache", False) or locate(None) in (NOWHERE, MEMORY)

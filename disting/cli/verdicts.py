@@ -151,8 +151,8 @@ def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[AnySide]:
 
 
 def _summary(decided: Decisions) -> str:
-    """How many pairs are what, and by which rule; of several sizes, how many smaller models lie
-    in larger ones.
+    """Number of pairs by relation and by rule; for several sizes, the number of smaller models
+    contained in larger ones.
     """
     pairs = list(combinations(range(len(decided.subjects)), 2))
     head = (
@@ -174,7 +174,9 @@ def _summary(decided: Decisions) -> str:
 
 
 def _groups(decided: Decisions) -> Iterator[str]:
-    """Which models are the same, which sometimes, and what is open, with its reason."""
+    """Lines on the models that are equivalent, those that sometimes are, and the open pairs with
+    the reason.
+    """
     names, classes = [s.name for s in decided.subjects], decided.classes()
     for members in classes:
         yield f"these are the same: {in_row(names[i] for i in members)}"
@@ -195,7 +197,7 @@ def _groups(decided: Decisions) -> Iterator[str]:
 
 
 def _lies_in_larger(decided: Decisions, i: int, j: int) -> bool:
-    """Whether the smaller model lies in the one with more masses."""
+    """Return True if the smaller model is contained in the one with more masses."""
     sizes = decided.sizes
     return (
         len(sizes) > 0

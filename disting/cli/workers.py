@@ -1,4 +1,4 @@
-"""What a command computes with, and how much work it begins.
+"""Workers of a command, and the amount of work that it starts.
 
 A rate is measured: seconds of one core for one thing of so many masses, on the machine of the
 guide's page on speed. Sizes beyond the last that was measured take as many times more as that took
@@ -59,7 +59,7 @@ class Rate:
 
 
 class Work(Enum):
-    """What takes long, each with its rate."""
+    """Kinds of long computations, each with its rate."""
 
     PAIRS = Rate(
         "pairs", 4, (0.0023, 0.0036, 0.0069), "fewer masses, or two models alone (disting compare)"
@@ -220,7 +220,7 @@ def _bars(pause: float) -> Iterator[Progress]:
     ended, latest = Event(), dict[str, tuple[int, int]]()
 
     def advance(what: str, done: int, total: int) -> None:
-        """What the next look shows."""
+        """Set the values that the next refresh shows."""
         latest[what] = (done, total)
 
     def draw() -> None:
@@ -257,7 +257,7 @@ def _lines(pause: float) -> Iterator[Progress]:
     begun, ended, last = monotonic(), Event(), ["working"]
 
     def advance(what: str, done: int, total: int) -> None:
-        """What the next line tells."""
+        """Set the values that the next line reports."""
         last[0] = f"{what}: {done} of {total}"
 
     def tell() -> None:

@@ -1,5 +1,5 @@
-"""What is found about one-sided inclusion: two statements on a pair, each with evidence of its
-own, and their text form.
+"""Findings on one-sided inclusion: two statements on a pair, each with evidence of its own, and
+their text form.
 
 IMAGE: generic models of one chain have an equivalent in the other with elements that are neither
 zero nor infinite. CLOSURE: they are limits of models of the other, whose elements may tend to zero
@@ -39,7 +39,7 @@ class Inclusion(StrEnum):
 
 
 class Sense(StrEnum):
-    """What is asked: equivalents with finite elements other than zero, or limits."""
+    """Kind of inclusion: equivalents with finite nonzero elements, or limits."""
 
     IMAGE = "image"
     CLOSURE = "closure"
@@ -78,7 +78,7 @@ class InclusionFinding:
 
     @property
     def is_known(self) -> bool:
-        """Whether something was found."""
+        """True if something was found."""
         return self.inclusion is not Inclusion.UNKNOWN
 
 

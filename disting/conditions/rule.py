@@ -33,7 +33,7 @@ class Stage(StrEnum):
 
 
 class Role(StrEnum):
-    """What a rule can prove, and on what it is asked.
+    """Logical role of a rule: what it can prove, and the profiles it needs.
 
     NECESSARY: a property of both profiles that indistinguishable models share, so that where it
     fails they are distinguishable. SUFFICIENT, STRUCTURAL: where it holds they are
@@ -65,12 +65,12 @@ class Rule:
 
     @property
     def sign(self) -> str:
-        """What a field of a matrix shows."""
+        """Sign shown in a field of a matrix."""
         return self.mark or self.name
 
     @property
     def is_condition(self) -> bool:
-        """Whether it is asked as a row of the table of conditions."""
+        """True if the rule is a row of the table of conditions."""
         return self.role is not Role.DECISION
 
     def in_words(self, domain: Domain = Domain.POSITIVE) -> str:
@@ -198,7 +198,7 @@ class Finding:
 
     @property
     def is_known(self) -> bool:
-        """Whether the rule was not given up."""
+        """True if the rule was not abandoned."""
         return self.outcome is not Outcome.ABANDONED
 
     @property

@@ -68,7 +68,7 @@ class View(ABC):
 
     @property
     def premise(self) -> Premise | None:
-        """What its name leaves open; None for models whose name says all."""
+        """Premises that its name leaves open; None for models whose name says all."""
         return None
 
     def notes(self, name: str) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""How a pair of models is decided: the whole way of a verdict, and the tables of deciders.
+"""Decision of a pair of models: the sequence of steps to a verdict, and the tables of deciders.
 
 A verdict on two models goes this way, and stops at the first step that decides
 (`disting.verdict.cascade`):

@@ -42,7 +42,7 @@ class Known(Protocol):
 
     @property
     def is_known(self) -> bool:
-        """Whether it decides; else its note says why not."""
+        """True if it decides; otherwise its note gives the reason."""
 
 
 F = TypeVar("F", bound=Known)

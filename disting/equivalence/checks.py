@@ -1,4 +1,4 @@
-"""Whether equivalents are right: as an identity, and under further experiments.
+"""Checks of equivalents: as an identity, and under further experiments.
 
 Small chains: both receptances are written out as rational functions and compared, a proof. Larger
 ones: both are evaluated at a random point, exactly, over the fractions, and compared as
@@ -71,7 +71,7 @@ def safety(chain: Chain, formulas: Mapping[str, RationalFunction]) -> int:
 
 
 def exactly_equal(left: Chain, a: Mapping[str, fmpq], right: Chain, b: Mapping[str, fmpq]) -> bool:
-    """Whether two models at rational points have the same transfer function: exact, common
+    """Return True if two models at rational points have the same transfer function: exact, common
     factors do not matter.
     """
     polynomial, s = fmpq_poly([1]), fmpq_poly([0, 1])
@@ -132,8 +132,8 @@ class Bench:
                 yield own_chain, other_chain
 
     def agrees(self, point: SolutionValues, values: SolutionValues) -> bool:
-        """Whether all transfer functions are the same: exact for rational values, and that none
-        certainly differs for balls.
+        """Return True if all transfer functions are equal: exact for rational values; for balls,
+        none is certainly different.
         """
         coefficients = (c for gap, _ in self._crossed(point, values) for c in gap.coeffs())
         return all(c.contains(0) if isinstance(c, acb) else not c for c in coefficients)

@@ -87,7 +87,7 @@ ROOT = ("name", "of", "from", "to")
 
 @dataclass(frozen=True)
 class Gate(NotebookTable):
-    """What is known of candidates before any of them is fitted.
+    """Pre-fit candidate filter.
 
     `groups`: names of the models that are the same, the one to be kept first; `duplicates`: the
     others of them; `parameters`: by name of a kept model, which of its parameters are determined
@@ -164,7 +164,7 @@ def gate(
     costs: Costs | None = None,
     engine: Engine | None = None,
 ) -> Gate:
-    """Which of these models are worth a fit: chains, networks or texts for them, models.
+    """Select the models that are worth a fit: chains, networks or texts for them, models.
 
     Of models that are the same over positive values (or in the domain of the query) the one with
     the fewest parameters is kept, among those the first. Two models that are no chains have one
@@ -255,7 +255,7 @@ def _assignments(forms: Iterable[ClosedForm]) -> tuple[Assignment, ...]:
 
 
 def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs | None) -> AnyMenu | None:
-    """What to measure next, where all are networks of one kind or chains of one size."""
+    """Menu of further measurements, where all are networks of one kind or chains of one size."""
     chains = [as_chain(m) for m in models]
     pairs = list(zip(models, chains, strict=True))
     structures = chains if all(chains) else [m.network or chain for m, chain in pairs]

@@ -1,5 +1,5 @@
-"""What a user gives: the structures to look at as chains or text such as 3+b*, values as numbers
-or text, taken exactly as fractions.
+"""User input: the structures to examine as chains or text such as 3+b*, values as numbers or text,
+converted exactly to fractions.
 
 A lag and a dead time belong to the actuator and the bench: other structures inherit them from the
 given model.
@@ -146,7 +146,7 @@ def _why_positive(model: Chain | Network, name: str, is_zero: bool) -> str:
 
 
 def _without(name: str) -> str:
-    """What to ask instead of a damper that is zero."""
+    """Advice for a damper that is zero: the structure to use instead."""
     match name[0]:
         case "b":
             return f": leave +{name} and its value away"

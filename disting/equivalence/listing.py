@@ -20,7 +20,7 @@ from disting.model.presentation import NotebookTable, summary
 
 
 class Signs(StrEnum):
-    """What a parameter vector looks like; the order is that of the lists."""
+    """Signs of a parameter vector; the order is that of the lists."""
 
     POSITIVE = "positive"
     REAL = "real, some negative"
@@ -178,7 +178,7 @@ def sentence(fibre: Fibre, count: int, cause: str) -> str:
 
 
 def under_all(fibre: Fibre, count: int, is_complete: bool) -> str:
-    """What is said of those of a list that keep the responses of all experiments."""
+    """Sentence on the members of a list that keep the responses of all experiments."""
     if fibre.status is Status.EMPTY:
         return f"{NONE} ({fibre.reason})"
     if is_complete:
@@ -191,7 +191,7 @@ def under_all(fibre: Fibre, count: int, is_complete: bool) -> str:
 
 
 def among(chains: Sequence[Chain]) -> str:
-    """What was looked at, in words: how many structures, of which size and kind.
+    """Searched structures in words: their number, size and kind.
 
     >>> among([Chain(2, dead_time=True), Chain(2, 1, 1, 2, 1, 2, dead_time=True)])
     'the 2 structures of 2 masses, damped, with a dead time, looked at'
@@ -219,7 +219,7 @@ def obstacle(chain: Chain, other: Chain) -> str:
 
 
 def special(chain: Chain, point: Mapping[str, fmpq]) -> str:
-    """What is special about the values of a model whose poles or zeros coincide."""
+    """Sentence on the special values of a model whose poles or zeros coincide."""
     if target(chain.structure, point).denominator.degree() < 2 * chain.n_masses + chain.lag:
         return "a vibration mode is not seen by force and sensor (poles and zeros cancel)"
     equal = _equal_ratios(chain, point)

@@ -1,4 +1,4 @@
-"""What part of a model another one reaches: the exact conditions on its positive values, where they
+"""Part of a model that another one reaches: the exact conditions on its positive values, where they
 are short.
 
 Unknowns are solved for case by case (`disting.general.cases`), each case being kept with what has
@@ -52,7 +52,7 @@ class Reach:
 
     @property
     def is_everything(self) -> bool:
-        """Whether nothing is asked for."""
+        """True if there is no condition."""
         return Piece(()) in self.pieces
 
     def sentence(self, text: str, other: str) -> str:
@@ -89,8 +89,8 @@ def inequality(polynomial: str) -> str:
 
 
 def reach(model: AnyModel, other: AnyModel) -> Reach | None:
-    """Which positive values of the one model have a positive equivalent in the other one; None
-    where that is not known, or not short. Both have the same degrees.
+    """Conditions on the positive values of the one model that have a positive equivalent in the
+    other one; None where they are unknown or not short. Both have the same degrees.
 
     >>> from disting.general.any_model import of_network, on_one_variable
     >>> from disting.network import network_of

@@ -91,7 +91,7 @@ def _text(item: str | Experiment) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """What fits one experiment: exact images, and solutions with where they come from."""
+    """Solutions that fit one experiment: exact images, and solutions with their origin."""
 
     given: Chain
     other: Chain
@@ -101,7 +101,7 @@ class _Found:
 
     @property
     def is_complete(self) -> bool:
-        """Whether there are no others."""
+        """True if there are no further solutions."""
         return _is_complete(self.fibre)
 
 
@@ -130,7 +130,9 @@ def _members(search: _Found, point: Point) -> tuple[Equivalent, ...]:
 
 
 def _under(bench: Bench, point: Point) -> Listing:
-    """What keeps the responses of all experiments, from the first list that is complete."""
+    """Listing of the models that keep the responses of all experiments, from the first list that is
+    complete.
+    """
     tried: list[_Found] = []
     for own_chain, other_chain in bench.alone:
         tried.append(_found(own_chain, point, other_chain))

@@ -1,4 +1,4 @@
-"""What verdicts rest on, small enough to be stored with them and to be checked again alone.
+"""Evidence of verdicts, small enough to be stored with them and to be checked again on its own.
 
 A kind of evidence is a class here, which says all of it: its fields, how they are stored, its
 words, which rules may carry it and what it shows (`kind`). `kinds` lists those that verdicts and

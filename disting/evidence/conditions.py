@@ -42,7 +42,7 @@ class Counts(Kind):
         return f"n + m + 1 = {n1} + {m1} + 1 = {n1 + m1 + 1},  {n2} + {m2} + 1 = {n2 + m2 + 1}"
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Whether these are their degrees."""
+        """Return True if these are their degrees."""
         degrees = pair.left.degrees, pair.right.degrees
         return degrees == (self.left, self.right) and self.left != self.right
 
@@ -69,7 +69,7 @@ class Forms(Kind):
     only_right: Labels
 
     def sentence(self, left: str, right: str) -> str:
-        """Which invariants vary on one side only."""
+        """Sentence on the invariants that vary on one side only."""
         sides = ((self.only_left, left, right), (self.only_right, right, left))
         parts = [_varies(labels, first, second) for labels, first, second in sides if labels]
         why = f": {TRANSCENDENTAL}" if "Td" in (*self.only_left, *self.only_right) else ""
@@ -84,7 +84,7 @@ class Forms(Kind):
         )
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Whether they vary on one side only."""
+        """Return True if they vary on one side only."""
         only = (*self.only_left, *self.only_right)
         n_left, n_right = (side.free(representation, only) for side in pair.sides)
         left, right = set(self.only_left), set(self.only_right)
@@ -156,8 +156,8 @@ class Renaming(Kind):
         return ", ".join(f"{a} → {b}" for a, b in self.pairs)
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Whether it names every parameter once on either side, one model is the other after it,
-        and symmetries that are named give it.
+        """Return True if the renaming names every parameter once on either side, turns one model
+        into the other, and follows from any symmetries that are named.
         """
         named = [sorted(p for p, _ in self.pairs), sorted(q for _, q in self.pairs)]
         whole = named == [sorted(side.parameters) for side in pair.sides]
@@ -198,7 +198,7 @@ class FreeChoice(Kind):
         return f"N_R = {self.rank} = |{{{label_runs(self.free)}}}|"
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Whether these vary, no others, and have that rank."""
+        """Return True if exactly these vary and have that rank."""
         return all(
             side.free(representation, self.free) == set(self.free)
             and side.rank(representation, self.free) == len(set(self.free)) == self.rank
@@ -219,7 +219,7 @@ class Embedding(Kind):
     rank: int
 
     def sentence(self, left: str, right: str) -> str:
-        """Which model is part of which."""
+        """Sentence on the model that is part of the other."""
         part, whole = (left, right) if self.left_is_submodel else (right, left)
         ranks = (
             f"both have {self.rank} determinable parameters, so their behaviours agree over complex"

@@ -46,7 +46,7 @@ THEOREMS = {
     ),
 }
 WEAKER = {"Cauer": "Foster"}
-"""What else is true where a theorem applies: files may rest on the weaker statement."""
+"""Weaker statement that also holds where a theorem applies: files may rest on it."""
 RATIONAL = ("symmetry", "duality", "gears")
 """Theorems whose maps are rational, so that they take real parameters to real ones."""
 
@@ -88,11 +88,11 @@ class Theorem(Kind):
 
     @property
     def title(self) -> str:
-        """What it is called."""
+        """Name of the theorem."""
         return TITLES[self.name]
 
     def sentence(self, left: str, right: str) -> str:
-        """What the theorem says of this pair."""
+        """Statement of the theorem for this pair."""
         return THEOREMS[self.name].format(left=left, right=right) + "."
 
     def shows(self, domain: Domain) -> Relation:
@@ -150,7 +150,7 @@ class FibreUnder(Kind):
     missed: tuple[int, ...]
 
     def sentence(self, left: str, right: str) -> str:
-        """How many were listed and what refutes them."""
+        """Sentence on the number of listed models and on their refutation."""
         source, searched = (left, right) if self.left_given else (right, left)
         start = f"For one choice of rational parameters of {source}, {searched} has "
         if not self.missed:
@@ -185,7 +185,7 @@ class FibreAt(Kind):
     positive: int
 
     def sentence(self, left: str, right: str) -> str:
-        """What the fibre shows."""
+        """Sentence on the computed fibre."""
         source, searched = (left, right) if self.left_given else (right, left)
         if self.grounds == "refuted":
             return (
@@ -258,7 +258,7 @@ class Exclusion(Kind):
             raise ValueError(f"nothing that excludes equivalents is called {self.name!r}")
 
     def sentence(self, source: str, other: str) -> str:
-        """What stands against equivalents."""
+        """Sentence on the obstruction to equivalents."""
         why = _OBSTACLES[self.name].format(source, other)
         return (
             f"No generic positive parameters of {source} have a positive equivalent in {other}:"

@@ -35,12 +35,12 @@ def without_digits(text: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class OverDomain(Kind):
-    """What is said of equivalents in one domain of parameters."""
+    """Statement on equivalents in one domain of parameters."""
 
     domain: str
 
     def shows(self, domain: Domain) -> Relation:
-        """What its kind claims, over the domain that it names."""
+        """Relation that its kind claims, over the domain that it names."""
         return self.claim.relation if self.domain == domain else Relation.UNDECIDED
 
 
@@ -71,7 +71,7 @@ class Explicit(OverDomain):
         return replace(self, formulas=tuple((not f[0], *f[1:]) for f in self.formulas))
 
     def without_exception(self, domain: Domain) -> bool:
-        """Whether it holds for special values too."""
+        """Return True if the statement holds for special values too."""
         plain = all(
             not where and not root and not any("-" in v or v == ZERO for _, v in values)
             for _, where, values, root in self.formulas
@@ -122,7 +122,7 @@ class NoEquivalent(OverDomain):
     contradictions: tuple[str, ...]
 
     def sentence(self, left: str, right: str) -> str:
-        """What would have to hold."""
+        """Sentence on the conditions that an equivalent would have to satisfy."""
         source, searched = (left, right) if self.left_given else (right, left)
         whole = (c if set("<>=") & set(c) else f"{c} = 0" for c in self.contradictions[:SHOWN])
         first = (c if len(c) <= LONGEST else f"{c[:LONGEST]} .." for c in whole)
@@ -227,7 +227,7 @@ class OfSubstitutes(Kind):
 
     @property
     def title(self) -> str:
-        """What the inner one is called."""
+        """Title of the inner evidence."""
         return self.inner.title
 
     @property
@@ -238,9 +238,9 @@ class OfSubstitutes(Kind):
 
 @dataclass(frozen=True, slots=True)
 class Replacement(OfSubstitutes):
-    """What is true of two networks that give the same transfer functions as these for all positive
-    values, special ones aside: `left` and `right` are those networks, the simplest ones or others
-    as texts have them, `inner` is the evidence on them. One that is `larger` may give more: that
+    """Statement on two networks that give the same transfer functions as these for all positive
+    values, special ones excepted: `left` and `right` are those networks, the simplest ones or
+    others given as text, `inner` is the evidence on them. One that is `larger` may give more: that
     shows only that there are no equivalents.
     """
 
@@ -253,7 +253,9 @@ class Replacement(OfSubstitutes):
     inner: "OfNetworks"
 
     def shows(self, domain: Domain) -> Relation:
-        """What the inner one shows, of positive values: those theorems speak of no others."""
+        """Relation that the inner evidence proves, over positive values: those theorems cover no
+        others.
+        """
         relation = self.inner.shows(domain) if domain is Domain.POSITIVE else Relation.UNDECIDED
         larger = self.left_larger or self.right_larger
         return (
@@ -261,7 +263,7 @@ class Replacement(OfSubstitutes):
         )
 
     def sentence(self, left: str, right: str) -> str:
-        """Which networks stand for these, and what is known of them."""
+        """Sentence on the networks that replace these, and on the evidence for them."""
         said = ["all that", "the same as"]
         return (
             f"Special values aside, A = [{self.left}] gives {said[not self.left_larger]} {left}"
@@ -272,7 +274,7 @@ class Replacement(OfSubstitutes):
 
 @dataclass(frozen=True, slots=True)
 class AtInverse(OfSubstitutes):
-    """What is true of two networks at 1/s: `left` and `right` are those, `inner` is the evidence on
+    """Statement on two networks at 1/s: `left` and `right` are those, `inner` is the evidence on
     them.
     """
 
@@ -283,11 +285,11 @@ class AtInverse(OfSubstitutes):
     inner: "OfNetworks"
 
     def shows(self, domain: Domain) -> Relation:
-        """What the inner one shows, of positive values."""
+        """Relation that the inner evidence proves, over positive values."""
         return self.inner.shows(domain) if domain is Domain.POSITIVE else Relation.UNDECIDED
 
     def sentence(self, left: str, right: str) -> str:
-        """Which networks stand for these, and what is known of them."""
+        """Sentence on the networks that replace these, and on the evidence for them."""
         return (
             f"With 1/s for s (springs and inerters, inductors and capacitors exchanged) {left} is"
             f" C = [{self.left}], {right} is D = [{self.right}]. {self.inner.sentence('C', 'D')}"
@@ -296,9 +298,9 @@ class AtInverse(OfSubstitutes):
 
 @dataclass(frozen=True, slots=True)
 class OfPart(OfSubstitutes):
-    """What is true for some values of a network without the `missing` elements, the left one or
-    the right one, and of the other network, is so of the whole one: where it is nearly that part.
-    Both give as many independent coefficients as there are.
+    """Statement on a network without the `missing` elements, the left one or the right one, and on
+    the other network: if it holds for some values of the part, it holds for some values of the
+    whole network, near that part. Both give as many independent coefficients as there are.
     """
 
     kind: ClassVar[str] = "of-part"
@@ -317,7 +319,7 @@ class OfPart(OfSubstitutes):
         return Relation.SOMETIMES if is_sometimes and is_of_part else Relation.UNDECIDED
 
     def sentence(self, left: str, right: str) -> str:
-        """What is left out, and what is known of the rest."""
+        """Sentence on the omitted elements, and on the evidence for the rest."""
         whole, names = (left, ("E", right)) if self.left_is_part else (right, (left, "E"))
         return (
             f"E is {whole} without {enumeration(self.missing)}, which gives an open set of"

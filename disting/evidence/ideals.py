@@ -36,7 +36,7 @@ class Solutions(Kind):
     is_normalised: bool = False
 
     def sentence(self, left: str, right: str) -> str:
-        """What was found."""
+        """Sentence on the result."""
         source, searched = (left, right) if self.left_given else (right, left)
         return (
             f"For {_times(len(self.labels), 'choice')} of random parameters of {source} modulo a"
@@ -64,7 +64,7 @@ class Refutation(Kind):
     is_normalised: bool = False
 
     def sentence(self, left: str, right: str) -> str:
-        """What was found."""
+        """Sentence on the result."""
         source, searched = (left, right) if self.left_given else (right, left)
         return (
             f"For {_times(len(self.labels), 'choice')} of random parameters of {source} modulo a"
@@ -88,7 +88,7 @@ FibreEvidence = Vanishing | Solutions
 
 @dataclass(frozen=True, slots=True)
 class RowStep:
-    """What is shown of one row (`part`) of the searched chain in one split."""
+    """Result for one row (`part`) of the searched chain in one split."""
 
     split: str
     part: str
@@ -108,7 +108,7 @@ class ByRows(Kind):
 
     @property
     def is_member(self) -> bool:
-        """Whether it speaks for inclusion."""
+        """True if the evidence supports inclusion."""
         return bool(self.steps) and all(isinstance(s.shown, Solutions) for s in self.steps)
 
     @property
@@ -117,7 +117,7 @@ class ByRows(Kind):
         return Inside.LIMIT if self.is_member else Inside.NO_EQUIVALENT
 
     def sentence(self, left: str, right: str) -> str:
-        """What was found, row by row."""
+        """Sentence on the result, row by row."""
         source, searched = (left, right) if self.left_given else (right, left)
         steps = "; ".join(_told(step, searched) for step in self.steps)
         if self.is_member:
@@ -172,7 +172,7 @@ class NoShares(Kind):
     degree: int
 
     def sentence(self, left: str, right: str) -> str:
-        """What was found."""
+        """Sentence on the result."""
         source, searched = (left, right) if self.left_given else (right, left)
         where = f"The {self.part} rows decide, the others are the same. " if self.part else ""
         return (

@@ -1,4 +1,4 @@
-"""What every kind of evidence declares.
+"""Declarations that every kind of evidence makes.
 
 A condition is any row of the table of conditions: which one it was is seen by asking that row
 again. What shows that models are the same over complex parameters says nothing of others, unless
@@ -54,8 +54,8 @@ class Carrier(Flag):
 
 
 class Inside(Enum):
-    """What is said of the generic models on the side of smaller rank: whether they have equivalents
-    on the other side, finite and not zero, or are limits of models there; those of LIMIT may have
+    """Statement on the generic models on the side of smaller rank: they have finite nonzero
+    equivalents on the other side, or they are limits of models there; those of LIMIT may have
     elements that are zero.
     """
 
@@ -67,9 +67,9 @@ class Inside(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """What all evidence of a kind claims, if its class says no more: that `relation` over these
-    `domains`, by the rules that are its `carriers`; `grounds`, how the exact decision calls it;
-    `inside`, what it says of an inclusion.
+    """Claim that all evidence of a kind makes unless its class states more: `relation` over these
+    `domains`, by the rules that are its `carriers`; `grounds`, its name in the exact decision;
+    `inside`, its statement on an inclusion.
     """
 
     carriers: Carrier = Carrier.NOBODY
@@ -103,7 +103,7 @@ class Kind:
     theorem: ClassVar[str] = ""
 
     def sentence(self, left: str, right: str) -> str:
-        """What it says of two models with these names."""
+        """Statement of this evidence on two models with these names."""
         names = {"left": left, "right": right}
         for flag, (first, second) in ROLES.items():
             ordered = (left, right) if getattr(self, flag, True) else (right, left)
@@ -116,31 +116,32 @@ class Kind:
         return self.symbols.format(self)
 
     def shows(self, domain: Domain) -> Relation:
-        """Which relation it shows over a domain, UNDECIDED: nothing. A difference over complex
-        parameters is one over real and positive ones, which are dense among them.
+        """Relation that it proves over a domain; UNDECIDED if it proves nothing. A difference over
+        complex parameters is one over real and positive ones, which are dense among them.
         """
         return self.claim.relation if domain in self.claim.domains else Relation.UNDECIDED
 
     def without_exception(self, domain: Domain) -> bool:
-        """Whether it says of all parameters in this domain that they have equivalents; else special
-        values, a set of measure zero, are left out: ranks and fibres speak of generic ones.
+        """Return True if it states that all parameters in this domain have equivalents; else
+        special values, a set of measure zero, are excepted: ranks and fibres apply to generic
+        parameters.
         """
         return False
 
     @property
     def title(self) -> str:
-        """What the theorem is called that it speaks by; "" where it has no name of its own."""
+        """Name of the theorem that it rests on; "" for a theorem without a name."""
         return self.theorem
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Whether it is true of two models, seen anew, and decides them; unless a class says how,
-        by the method that finds such evidence.
+        """Return True if the evidence holds for two models (recomputed from scratch) and decides
+        them; unless the class overrides it, by the method that finds such evidence.
         """
         return pair.found_again(self)
 
     @property
     def inside(self) -> Inside:
-        """What it says of an inclusion."""
+        """Statement of this evidence on an inclusion."""
         return self.claim.inside
 
     @property
@@ -197,8 +198,8 @@ def as_tuples(value: Any) -> Any:
 
 
 def is_well_typed(evidence: Any) -> bool:
-    """Whether every field of evidence, however deep, is of the type that its class says: what a
-    file holds may be anything. None is no evidence.
+    """Return True if every field of evidence, at any depth, has the type that its class declares: a
+    file may hold anything. None is no evidence.
     """
     kind: Any = type(evidence)
     hints = {} if evidence is None else _hints(kind)
@@ -236,8 +237,9 @@ MOST_MARKOV = 1000  # of a file that somebody else wrote: each costs a row
 
 @dataclass(frozen=True, slots=True)
 class ModelSamples:
-    """What one model reveals: `draw` gives samples of so many Markov parameters after G_0;
-    `degrees` of numerator and denominator, of several transfer functions one pair after the other.
+    """Samples of one model's behaviour: `draw` gives samples with this number of Markov parameters
+    after G_0; `degrees` of numerator and denominator, of several transfer functions one pair after
+    the other.
     """
 
     parameters: Labels

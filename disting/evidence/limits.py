@@ -28,7 +28,7 @@ class RowLimit(NamedTuple):
 
     @property
     def sentence(self) -> str:
-        """What happens to the row, without names of models."""
+        """Sentence on the limit of the row, without names of models."""
         path = ", then ".join(f"{element} {_WORDS[limit]}" for element, limit in self.steps)
         ways = [f"with {path}"] if path else []
         ways += ["by a count of dimensions"] if self.room else []
@@ -66,7 +66,7 @@ class Limit(Kind):
         object.__setattr__(self, "parts", tuple(RowLimit(*part) for part in self.parts))
 
     def sentence(self, left: str, right: str) -> str:
-        """What becomes of each row."""
+        """Sentence on the limit of each row."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         path = "; ".join(part.sentence for part in self.parts)
         same = [
@@ -158,7 +158,7 @@ class PoleSharing(Kind):
     points: tuple[tuple[int, ...], ...]
 
     def sentence(self, left: str, right: str) -> str:
-        """What is impossible."""
+        """Sentence on the contradiction."""
         larger, smaller = (left, right) if self.left_is_larger else (right, left)
         subject = "A model" if len(self.points) == 1 else f"Each of {len(self.points)} models"
         row = "" if len(self.points) == 1 else " that its grounded row can have"
@@ -222,7 +222,7 @@ def _counted(rank: int, coordinates: int, factors: int, same_mass: int) -> str:
 
 
 class Why(StrEnum):
-    """What is shown of one row; INSIDE, FULL and MOMENTUM speak for limits, the others against."""
+    """Result for one row; INSIDE, FULL and MOMENTUM support limits, the others exclude them."""
 
     INSIDE = "inside"
     FULL = "full"
@@ -237,8 +237,8 @@ SUPPORTS = frozenset({Why.INSIDE, Why.FULL, Why.MOMENTUM})
 
 
 class RowLimits(NamedTuple):
-    """What is shown of one row (`part`) in one `split` (see `disting.fibres.ideals.splits`; "whole"
-    for a chain without a gap).
+    """Result for one row (`part`) in one `split` (see `disting.fibres.ideals.splits`; "whole" for a
+    chain without a gap).
 
     `detail`: the coefficient's name, both dimensions, or the label from which primes and points of
     an equation are drawn.
@@ -296,7 +296,7 @@ class Outside(_Steps):
 
     @property
     def formula(self) -> str:
-        """What does not vanish."""
+        """Formula of the coefficient that does not vanish."""
         return (
             "; ".join(_FORMULAS[step.why].format(detail=step.detail) for step in self.steps)
             or "R₂ + F₂ ≠ R₁ + F₁"
@@ -384,7 +384,7 @@ class MissingElements(Kind):
     numbering: tuple[tuple[int, int], ...]
 
     def sentence(self, left: str, right: str) -> str:
-        """Which model is part of which."""
+        """Sentence on the model that is part of the other."""
         part, whole = (left, right) if self.left_is_part else (right, left)
         bodies = [f"masses {' and '.join(map(str, body))} one rigid body" for body in self._bodies]
         stiff = [*bodies, *(f"mass {i} at rest" for i, at in self._nodes if i and not at)]
@@ -434,7 +434,7 @@ class Minor(Kind):
     exponents: tuple[tuple[str, str], ...] = ()
 
     def sentence(self, left: str, right: str) -> str:
-        """Which network is part of which."""
+        """Sentence on the network that is part of the other."""
         part, whole = (left, right) if self.left_is_part else (right, left)
         how = [f"without {', '.join(self.missing)}"] if self.missing else []
         how += (

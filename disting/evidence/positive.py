@@ -64,7 +64,7 @@ class Interlacing(Kind):
     without: PointText = ()
 
     def sentence(self, source: str, other: str) -> str:
-        """Which arrangements of poles and zeros `other` lacks."""
+        """Sentence on the arrangements of poles and zeros that `other` lacks."""
         lacking = [(p.part, _spelled(p.lacking)) for p in self.parts if p.lacking]
         if not lacking:
             return (
@@ -147,8 +147,8 @@ PositiveEvidence = Theorem | Exclusion | EmptyFibre | Interlacing | Points | Box
 
 
 class Share(StrEnum):
-    """Which generic positive models have a positive equivalent: all, some (and some have none),
-    none; or that is not known.
+    """Share of the generic positive models that have a positive equivalent: all, some (and some
+    have none), none; or unknown.
     """
 
     ALWAYS = "always"
@@ -221,11 +221,11 @@ class PositiveFinding:
 
     @property
     def is_known(self) -> bool:
-        """Whether something was found."""
+        """True if something was found."""
         return self.share is not Share.UNKNOWN
 
     def sentence(self, source: str, other: str) -> str:
-        """What is known and why; a sampled share is called empirical."""
+        """Sentence on the share and the reason; a sampled share is called empirical."""
         if self.evidence is None:
             return (
                 f"Which positive {source} have a positive equivalent in {other} is not known:"
@@ -349,7 +349,7 @@ def _rounded(value: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class BothWays(Kind):
-    """Which positive models of the left chain have a positive equivalent in the right one, and the
+    """Positive models of the left chain that have a positive equivalent in the right one, and the
     reverse.
 
     Both chains are in their canonical forms.
@@ -386,11 +386,11 @@ class BothWays(Kind):
         return one_way if one_way == other_way else f"→ {one_way}; ← {other_way}"
 
     def shows(self, domain: Domain) -> Relation:
-        """What the share says, of positive parameters alone."""
+        """Relation that the share implies, over positive parameters only."""
         return _RELATIONS[self.share] if domain is Domain.POSITIVE else Relation.UNDECIDED
 
     def without_exception(self, domain: Domain) -> bool:
-        """Whether both ways are so."""
+        """Return True if the share is without exception in both directions."""
         ways = (self.left.evidence, self.right.evidence)
         return all(way is not None and way.without_exception(domain) for way in ways)
 

@@ -64,7 +64,7 @@ def _forms(measured: MeasuredChain) -> list[MeasuredChain]:
 
 
 def _order(measured: MeasuredChain) -> tuple[object, ...]:
-    """What the standard form has least of."""
+    """Sort key whose minimum is the standard form."""
     chain = measured.chain
     experiments = [
         (e.force or (), e.sensor or (), [(c.kind, c.place, c.size) for c in e.changes])
@@ -112,8 +112,8 @@ Form = tuple[Content, int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class _Done:
-    """What is done in a row: `kind` with its size, whether it is done in the free row, both rows,
-    whether the row's receptance implies what is seen, and if not, the row with ports and mass.
+    """Change of a row: `kind` with its size, whether it applies to the free row, both rows, whether
+    the row's receptance implies the measured function, and if not, the row with ports and mass.
     """
 
     kind: str
@@ -125,7 +125,9 @@ class _Done:
 
 
 def same_by_rows(left: MeasuredChain, right: MeasuredChain) -> bool:
-    """Whether two measured chains have equal closures row by row; False where this is not known."""
+    """Return True if two measured chains have equal closures row by row; False where this is
+    unknown.
+    """
     if _factors(left.chain) != _factors(right.chain):
         return False
     mine, theirs = _done(left), _done(right)
@@ -139,7 +141,7 @@ def same_by_rows(left: MeasuredChain, right: MeasuredChain) -> bool:
 
 
 def _factors(chain: Chain) -> tuple[object, ...]:
-    """What both share beside their rows."""
+    """Factors that both share apart from their rows."""
     return chain.n_masses, chain.gap, chain.sensor, chain.lag, chain.dead_time
 
 

@@ -103,7 +103,7 @@ QUICK = replace(LIMITS, entries=1_000_000, safety=LEAST_SAFETY + SHARED)
 def positive_finding(
     machine: MeasuredChain, other: MeasuredChain, settings: Settings
 ) -> PositiveFinding:
-    """Which positive models of `machine` have a positive equivalent in `other`."""
+    """Positive models of `machine` that have a positive equivalent in `other`."""
     machine, other = without_dead_time(machine), without_dead_time(other)
     finding: PositiveFinding = first_finding(SHARE_MEASURED.rows, machine, other, settings)
     return finding
@@ -112,7 +112,7 @@ def positive_finding(
 def by_one_experiment(
     machine: MeasuredChain, other: MeasuredChain, settings: Settings
 ) -> PositiveFinding | None:
-    """What one experiment alone says for all of them."""
+    """Finding of a single experiment that holds for all experiments."""
     for at in range(len(machine.experiments)):
         chain, other_chain = machine.alone(at), other.alone(at)
         if chain is not None and other_chain is not None:
@@ -125,7 +125,7 @@ def by_one_experiment(
 
 
 def _by_one(chain: Chain, other: Chain, number: int, settings: Settings) -> PositiveFinding | None:
-    """What one experiment says for all of them."""
+    """Finding of one experiment that holds for all experiments."""
     finding = positive_share(chain, other, settings)
     if finding.share is Share.NEVER:
         return finding
@@ -183,7 +183,7 @@ def _scaled(machine: MeasuredChain, other: MeasuredChain, label: str) -> dict[st
 
 
 def answer_of(kept: tuple[Solution, ...]) -> Answer:
-    """Whether the equivalent among these is positive."""
+    """Decide whether the equivalent among these is positive."""
     if all(s.positive is Answer.NO for s in kept):
         return Answer.NO
     alone = len(kept) == 1 and all(bool(v.real > arb(0)) for v in kept[0].values.values())
@@ -254,7 +254,7 @@ def exact_finding(left: MeasuredChain, right: MeasuredChain, settings: Settings)
 def by_ideals(
     left: MeasuredChain, right: MeasuredChain, settings: Settings, limits: Limits | None = None
 ) -> Finding:
-    """What the ideal of one fibre of the stacked map says."""
+    """Finding from the ideal of one fibre of the stacked map."""
     maps = match_maps(left, right)
     decision = decide_matched(*maps, equal_rank=True, seed=settings.seed, limits=limits or LIMITS)
     return as_finding(decision)

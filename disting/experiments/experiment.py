@@ -1,4 +1,4 @@
-"""How a machine is measured: ports, sensor quantity, and changes of the machine.
+"""Measurement setup of a machine: ports, sensor quantity, and changes of the machine.
 
 An experiment is one force, one sensor and one state of the machine. A locked mass does not move:
 its coordinate is 0, so it cuts its row, and what was a joint to it is a joint to something that
@@ -166,12 +166,12 @@ class Entry:
 
     @property
     def lag(self) -> bool:
-        """Whether the force has a lag."""
+        """True if the force has a lag."""
         return self.structure.lag
 
     @property
     def is_silent(self) -> bool:
-        """Whether the sensor never moves: no mass that it shows is joined to one that is driven."""
+        """True if the sensor never moves: no mass that it measures is connected to a driven one."""
         return not touched_rows(self)
 
     @cached_property
@@ -210,7 +210,7 @@ class Entry:
         still = {0, *self.experiment.still}
 
         def moves(e: Element) -> bool:
-            """Whether the element acts on a mass that moves."""
+            """Return True if the element acts on a mass that moves."""
             return not ({e.at, e.at + 1} if e.kind in "kd" else {e.at}) <= still
 
         return tuple(e for e in (*self.structure.elements, *self._added) if moves(e))
@@ -271,7 +271,9 @@ class MeasuredChain:
             return None
 
     def is_plain(self, at: int) -> bool:
-        """Whether one of its experiments (counted from 0) is that of the chain as it is."""
+        """Return True if one of its experiments (counted from 0) is that of the unmodified
+        chain.
+        """
         return self.alone(at) == self.chain
 
     @property

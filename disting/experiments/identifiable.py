@@ -1,5 +1,5 @@
-"""Which parameters of a chain several experiments determine together, and how many sets of them
-fit.
+"""Parameters of a chain that several experiments determine together, and the number of parameter
+sets that fit.
 
 The stacked Jacobian tells what is determined locally. Where one experiment alone leaves finitely
 many parameter vectors, they are listed at a random point, and those that another experiment
@@ -77,7 +77,7 @@ def _local(measured: MeasuredChain, settings: Settings) -> Local:
 
 
 def _bounds(listed: ExperimentFibre) -> bool:
-    """Whether generic points have no more solutions than are left here: all are simple."""
+    """Return True if generic points have no more solutions than remain here: all are simple."""
     return all(s.confirmation is Confirmation.SUBSYSTEM for s in listed.fibre.solutions)
 
 

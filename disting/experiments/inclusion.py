@@ -1,5 +1,5 @@
-"""Which of two measured chains of unequal rank lies in the other one, where that follows from what
-is known of both: no fibre is looked at.
+"""Inclusion of a measured chain in another one of larger rank, where it follows from known results
+on both: no fibre is computed.
 
 Inside. If the one is the other with elements missing, and all experiments are at the same masses of
 both, then elements that vanish or grow without bound carry every transfer function of the larger
@@ -120,7 +120,7 @@ def places_in(part: MeasuredChain, whole: MeasuredChain) -> Iterator[dict[int, i
 
 
 def confirms_missing(evidence: MissingElements, left: MeasuredChain, right: MeasuredChain) -> bool:
-    """Whether the numbering makes the part of the whole, in all experiments."""
+    """Return True if the numbering makes the one a part of the other, in all experiments."""
     part, whole = (left, right) if evidence.left_is_part else (right, left)
     places = {i: at for at, i in evidence.numbering}
     is_part = is_minor(part.chain.structure, whole.chain.structure, places)
@@ -128,8 +128,8 @@ def confirms_missing(evidence: MissingElements, left: MeasuredChain, right: Meas
 
 
 def _keeps(places: dict[int, int], measured: MeasuredChain, other: MeasuredChain) -> bool:
-    """Whether every experiment becomes that on the other chain, nodes of the one being at these
-    places of the other; what is done to a mass that has none changes nothing.
+    """Return True if every experiment becomes that on the other chain when the nodes of the one are
+    at these places of the other; a change at a mass without a place has no effect.
     """
     same = {i: i for i in range(other.chain.n_masses + 1)}
     return all(
@@ -143,7 +143,7 @@ def _keeps(places: dict[int, int], measured: MeasuredChain, other: MeasuredChain
 def _changes(
     experiment: Experiment, places: dict[int, int]
 ) -> dict[tuple[Kind, int], Fraction | None]:
-    """What is done at each place but the ground; sizes at one place add up."""
+    """Changes at each place except the ground; sizes at one place add up."""
     done = dict[tuple[Kind, int], Fraction | None]()
     for change in experiment.changes:
         at = places.get(change.place)

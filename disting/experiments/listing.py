@@ -216,7 +216,7 @@ def _canonical_fibre(
 
 
 def _differs(mine: Entry, point: dict[str, fmpq], theirs: Entry, balls: dict[str, Ball]) -> bool:
-    """Whether N2 D1 - N1 D2 has a coefficient that is certainly not zero."""
+    """Return True if N2 D1 - N1 D2 has a coefficient that is certainly nonzero."""
     rational = {name: fmpq_poly([value]) for name, value in point.items()}
     num, den = _receptance(mine, rational, fmpq_poly)
     top, bottom = _receptance(theirs, {n: acb_poly([v]) for n, v in balls.items()}, acb_poly)

@@ -71,7 +71,7 @@ class Shape:
 
 @lru_cache(maxsize=REMEMBERED)
 def shape(entry: Entry) -> Shape:
-    """What is known exactly of an entry's coefficients."""
+    """Exactly known properties of an entry's coefficients."""
     if not touched_rows(entry):
         return Shape(frozenset(), frozenset(), ())
     if not _has_one_sign(entry):
@@ -103,8 +103,9 @@ def expand(entry: Entry) -> tuple[fmpz_mpoly, fmpz_mpoly]:
 
 
 def is_renaming(left: MeasuredChain, right: MeasuredChain, renaming: Mapping[str, str]) -> bool:
-    """Whether renaming the left parameters turns every transfer function into that of the same
-    experiment on the right: an exact identity. A dead time can only become the other's dead time.
+    """Return True if renaming the left parameters turns every transfer function into that of the
+    same experiment on the right: an exact identity. A dead time can only become the other's dead
+    time.
     """
     if left.chain.dead_time != right.chain.dead_time:
         return False
@@ -125,8 +126,8 @@ def _renames(left: Entry, right: Entry, renaming: Mapping[str, str]) -> bool:
 
 
 def _has_one_sign(entry: Entry) -> bool:
-    """Whether force and sensor have one end each in every row that both reach, and all rows the
-    same product of signs.
+    """Return True if force and sensor have one end each in every row that both reach, and all rows
+    have the same product of signs.
     """
     p, signs = entry.ports, set[int]()
     for first, last in touched_rows(entry):
@@ -150,7 +151,7 @@ def _scaled(entry: Entry, values: Mapping[str, Whole], s: Whole) -> tuple[Whole,
 
 
 def residues_of(sizes: Mapping[str, Fraction], modulus: int) -> dict[str, int]:
-    """What is known, modulo a prime."""
+    """Known sizes modulo a prime."""
     return {n: x.numerator * pow(x.denominator, -1, modulus) % modulus for n, x in sizes.items()}
 
 
@@ -172,7 +173,7 @@ class MachineModel:
 
     @property
     def dead_time(self) -> bool:
-        """Whether the chain has one."""
+        """True if the chain has a dead time."""
         return self.measured.chain.dead_time
 
     @property

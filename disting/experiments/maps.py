@@ -108,7 +108,7 @@ def _split(measured: MeasuredChain) -> _Split | None:
 
 
 def _factor(terms: Terms, at: int, power: int) -> Terms:
-    """What stands beside this power of the unknown at a position."""
+    """Factor of this power of the unknown at a position."""
     return tuple(((*e[:at], 0, *e[at + 1 :]), c) for e, c in terms if e[at] == power)
 
 

@@ -1,5 +1,5 @@
-"""Whether what a verdict on two measured chains rests on is true, seen anew, and how surely it
-shows what it shows.
+"""Checks of the evidence for verdicts on two measured chains (recomputed from scratch), and its
+certainty.
 """
 
 from collections.abc import Iterator
@@ -42,8 +42,8 @@ OfMeasured = Evidence | InclusionEvidence
 def confirms(
     evidence: OfMeasured, left: MeasuredChain, right: MeasuredChain, representation: str = "tf"
 ) -> bool:
-    """Whether the evidence holds: lists are made again at the stored point, contradictions are
-    found again; a part is looked for again; all else is looked at at fresh points.
+    """Return True if the evidence holds: lists are recomputed at the stored point, contradictions
+    and parts are searched again; everything else is checked at fresh points.
 
     Raises NotSeenError where a contradiction takes too long.
     """
@@ -60,7 +60,7 @@ def confirms(
 
 
 def _found_again(evidence: Kind, left: MeasuredChain, right: MeasuredChain) -> bool:
-    """What the exact decision, positive equivalents and inclusions rest on."""
+    """Recompute the evidence of the exact decision, of positive equivalents and of inclusions."""
     return check(evidence, deciders_of(Of.MEASURED, OF_VERDICTS + OF_INCLUSIONS), left, right)
 
 
@@ -109,7 +109,9 @@ def inclusion_of_sides(
 def confirms_inclusion(
     evidence: InclusionEvidence, left: MeasuredChain, right: MeasuredChain
 ) -> bool:
-    """Whether evidence of an inclusion holds: degrees have to refute it."""
+    """Return True if the evidence of an inclusion holds: it must refute the inclusion by
+    degrees.
+    """
     return check(evidence, deciders_of(Of.MEASURED, OF_INCLUSIONS), left, right)
 
 
@@ -142,8 +144,8 @@ def check_larger(evidence: LargerProjection, left: MeasuredChain, right: Measure
 
 
 def check_counts(evidence: Counts, left: MeasuredChain, right: MeasuredChain) -> bool:
-    """Whether these are the degrees of one experiment, and those of the chain of smaller rank are
-    no limit's of the other.
+    """Return True if these are the degrees of one experiment, and no limit of the other chain has
+    those of the chain of smaller rank.
     """
     models = [MachineModel(m) for m in (left, right)]
     pairs = (model.degrees for model in models)
@@ -175,7 +177,7 @@ def _is_of(point: tuple[tuple[str, str], ...], machine: MeasuredChain) -> bool:
 
 
 def check_both_ways(evidence: BothWays, left: MeasuredChain, right: MeasuredChain) -> bool:
-    """What is known of either way, once more; something is."""
+    """Recompute the finding of either direction; at least one is known."""
     left, right = without_dead_time(left), without_dead_time(right)
     ways = [(evidence.left, left, right), (evidence.right, right, left)]
     graded_ways = [way for way in ways if way[0].certainty]
@@ -201,7 +203,7 @@ def _proves(finding: PositiveFinding, machine: MeasuredChain, other: MeasuredCha
 def _answer(
     values: tuple[tuple[str, str], ...], machine: MeasuredChain, other: MeasuredChain
 ) -> Answer:
-    """Whether there is a positive equivalent at a stored positive point."""
+    """Decide whether there is a positive equivalent at a stored positive point."""
     point = {name: fraction(value) for name, value in values}
     if not _is_of(values, machine) or any(value <= 0 for value in point.values()):
         return Answer.UNKNOWN
@@ -213,7 +215,7 @@ def _answer(
 
 
 def _is_only_one(at: int, machine: MeasuredChain, other: MeasuredChain) -> bool:
-    """Whether there is one equivalent and no more in this experiment, counted from 0."""
+    """Return True if there is exactly one equivalent in this experiment, counted from 0."""
     if not 0 <= at < len(machine.experiments):
         return False
     chain = other.alone(at)

@@ -84,7 +84,9 @@ class MeasuredNetwork:
         return responses(self.network, [_setup(e, self.network) for e in self.experiments])
 
     def is_plain(self, at: int) -> bool:
-        """Whether one of its experiments (counted from 0) is that of the network as it is."""
+        """Return True if one of its experiments (counted from 0) is that of the unmodified
+        network.
+        """
         return self.experiments[at] == Experiment()
 
     @property

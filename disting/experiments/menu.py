@@ -1,4 +1,4 @@
-"""What could be measured next: a menu of experiments beside the present one, with what each costs.
+"""Menu of possible further measurements in addition to the present one, with their costs.
 
 An item is one thing of the table of kinds (`model.kinds`) that is done at one mass: a sensor there,
 the force there, a known inertia added, the mass locked. A further sensor and the present sensor
@@ -24,8 +24,8 @@ from disting.model.kinds import COSTS, FORCE, KINDS, PRICES, SENSOR, Kind
 
 
 class Gain(StrEnum):
-    """What an item adds to the present measurement: a NEW transfer function, one that REPEATS
-    what the present one tells already, or a sensor that never moves: SILENT.
+    """Gain of an item over the present measurement: a NEW transfer function, one that REPEATS
+    information of the present one, or a sensor that never moves: SILENT.
     """
 
     NEW = "new"
@@ -54,17 +54,17 @@ class Item:
         return self.kind.item.format(self.at)
 
     def is_worth(self, gain: Gain) -> bool:
-        """Whether there is anything to be seen. Something known whose effect can be foretold is
-        worth it: a structure of which another effect is foretold is excluded. A sensor or a force
-        where it is already is none.
+        """Return True if the item can give new information. Something known whose effect can be
+        foretold is worth it: a structure of which another effect is foretold is excluded. A sensor
+        or a force where it is already is none.
         """
         return gain is Gain.NEW or (gain is Gain.REPEATS and self.kind.takes_size)
 
 
 @dataclass(frozen=True)
 class Costs:
-    """What each kind costs, in any unit; two things together cost their sum. Kinds without a cost
-    of their own are on a menu only where one is named. Raises InputError.
+    """Cost of each kind, in any unit; the cost of a combination is the sum. Kinds without a cost of
+    their own are on a menu only where one is named. Raises InputError.
     """
 
     of: Mapping[str, float] = field(default_factory=lambda: dict(COSTS))
@@ -118,8 +118,8 @@ class Costs:
         return tuple(kind for kind in kinds if set(kind.prices) <= self.of.keys())
 
     def kinds(self, n_places: int, menu: Iterable[Kind] = KINDS) -> tuple[Kind, ...]:
-        """What can be done on structures with so many masses or nodes, in the order of the table: a
-        single one cannot be held still.
+        """Kinds that are possible on structures with this number of masses or nodes, in the order
+        of the table: a single mass cannot be locked.
         """
         return tuple(k for k in self.priced(menu) if n_places > 1 or not k.holds)
 
@@ -137,8 +137,8 @@ def measure_with(chain: Chain, *items: Item) -> MeasuredChain:
 
 
 def gain(chain: Chain, item: Item) -> Gain | None:
-    """What an item adds; None where it is not known: at a random point what was measured implies
-    the same, so maybe it always does.
+    """Gain of an item; None where it is unknown: at a random point the present measurement implies
+    the same, so possibly always.
 
     Implied are the same transfer function G and, where force and sensor are at the one mass to
     which h(s) is added, such as J s^2, G/(1 + h R) with the receptance R = G/s^q, q

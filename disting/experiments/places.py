@@ -1,4 +1,4 @@
-"""Which mass of one model is which of the other: on the bench it is one and the same thing.
+"""Correspondence of masses between two models: on the bench a mass is one physical part.
 
 An experiment names masses of the left chain. A mass of the right chain that is the same thing may
 be known, written 3/2; where it is not, every mass that is left over may be it. Different things
@@ -35,7 +35,7 @@ class PlacedExperiment:
 
 
 def parse_experiment(text: str) -> PlacedExperiment:
-    """What `sensor=3/2,lock=1` says; raises InputError.
+    """Parse an experiment such as `sensor=3/2,lock=1`; raises InputError.
 
     >>> parse_experiment("sensor=3/2-1,lock=1").places
     ((3, 2),)

@@ -281,8 +281,8 @@ Limits = Mapping[tuple[int, int], Minor]
 
 
 def _limits(fits: Sequence[FittedNetwork], classes: Sequence[Sequence[Network]]) -> Limits:
-    """Which fitted networks contain which; `classes`: those that each one stands for, all of which
-    give the same responses.
+    """Containments among fitted networks; `classes`: the networks that each one represents, all of
+    which give the same responses.
     """
     limits = dict[tuple[int, int], Minor]()
     for large, small in permutations(range(len(fits)), 2):

@@ -133,7 +133,7 @@ def select(
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """What the work is done with."""
+    """Resources of the computation."""
 
     engine: Engine
     executor: Executor | None
@@ -142,7 +142,7 @@ class Work:
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """What the fits are judged by, and the controller whose margins are told."""
+    """Criteria for judging the fits, and the controller whose margins are reported."""
 
     thresholds: Thresholds
     rule: Rule
@@ -204,7 +204,7 @@ def _selection(
     silent: tuple[str, ...],
     work: Work,
 ) -> Selection:
-    """What the fits tell of all candidates."""
+    """Selection from the fits of all candidates."""
     task, search = fits.task, fits.search
     chosen = _chosen(fits, terms, work.engine.settings)
     quantities = quantity_readings(
@@ -246,7 +246,9 @@ def _selection(
 
 
 def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
-    """Which candidate is taken, which others are left, and whether any explains the data."""
+    """Choose the selected candidate and the remaining ones, and determine whether any explains the
+    data.
+    """
     task, test, scatters = fits.task, fits.test, fits.known
     fitted = judge(fits.found, task, test, scatters, settings)
     while True:
@@ -267,7 +269,9 @@ def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
 def _members(
     fits: Fits, chosen: Choice, work: Work
 ) -> tuple[tuple[Member, ...], tuple[Member, ...]]:
-    """What the data do not exclude: those that contain no other one, and those that do."""
+    """Structures that the data do not exclude: those that contain no other one, and those that
+    do.
+    """
     kept = chosen.left if chosen.explanation.is_near else ()
     within = limits_of(fits.task.bounds, fits.task.fixed)
     left = members(kept, fits.task, fits.test, fits.known, within, work.executor, work.progress)
@@ -315,7 +319,7 @@ def _represented(candidates: Sequence[Chain], task: Task, engine: Engine) -> dic
 def _alternatives(
     selected: Candidate | None, candidates: Sequence[Chain], task: Task, engine: Engine
 ) -> tuple[Alternative, ...]:
-    """What may behave the same as the selected structure in all responses."""
+    """Structures that may be equivalent to the selected one in all responses."""
     if selected is None:
         return ()
     within = limits_of(task.bounds, task.fixed)
@@ -324,7 +328,7 @@ def _alternatives(
 
 
 def _readings(fits: Fits, said: Explanation, work: Work) -> tuple[Reading, ...]:
-    """What the data would be where the fits do not explain them."""
+    """Other readings of the data, where the fits do not explain them."""
     if said.is_near or said.noisy or not fits.searched or isinstance(fits.search.cost, JointCost):
         return ()
     store, executor, progress = work.engine.store, work.executor, work.progress

@@ -1,5 +1,5 @@
-"""Whether models that agree over complex parameters agree over real or positive ones: always,
-never or for some.
+"""Equivalence over real or positive parameters of models that are equivalent over complex ones:
+always, never or for some.
 
 What is known each way (see `ways`) is put together: INDISTINGUISHABLE if all generic parameters of
 either model have an equivalent in the other one; DISTINGUISHABLE if those of one have none, and so
@@ -65,7 +65,7 @@ class ValueSearch:
 
     @cached_property
     def ways(self) -> Ways:
-        """What is known of either way; the second one is not asked where the first says "never"."""
+        """Results in both directions; the second one is skipped where the first is "never"."""
         if self.known_ways is not None:
             return self.known_ways
         first = way(self.left, self.right, self.domain, self.effort)
@@ -182,7 +182,7 @@ def by_all_inequalities(search: ValueSearch) -> Finding | None:
 
 
 def left_open(search: ValueSearch) -> Finding:
-    """What was seen, where nothing decides."""
+    """Partial results, where nothing decides."""
     note = (
         f"an equivalent with {search.domain} parameters was found {search.seen[2]}, which proves"
         " nothing of the others"
@@ -195,8 +195,8 @@ def _formulas(search: ValueSearch) -> Explicit | None:
 
 
 def are_one_ports(left: AnyModel, right: AnyModel) -> bool:
-    """Whether both are one-ports that give any impedance of their kind, one input and output each
-    (see `one_ports`).
+    """Return True if both are one-ports that give any impedance of their kind, one input and output
+    each (see `one_ports`).
     """
     if isinstance(left, Model) and isinstance(right, Model):
         return same_one_ports(left, right)

@@ -72,7 +72,7 @@ class Alternatives:
         return tuple(x for x in self.equivalents if x.domain in admissible)
 
     def exist(self, domain: Domain) -> Outcome:
-        """Whether there are any in a domain: HOLDS, FAILS, or ABANDONED where it is not known."""
+        """Existence of alternatives in a domain: HOLDS, FAILS, or ABANDONED where it is unknown."""
         if self.within(domain) or (domain is Domain.COMPLEX and self.extent is Extent.FAMILY):
             return Outcome.HOLDS
         return (
@@ -83,7 +83,7 @@ class Alternatives:
 
     @property
     def sentence(self) -> str:
-        """What was found, in words."""
+        """Result in words."""
         at = ", ".join(f"{name} = {x}" for name, x in self.values)
         match self.extent:
             case Extent.NONE:

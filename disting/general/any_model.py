@@ -1,5 +1,5 @@
-"""What is asked of pairs of general models: whether a renaming connects them, their polynomial
-maps, and the exact decision where conditions 1 to 7 stay silent: one fibre as a polynomial ideal.
+"""Questions on pairs of general models: whether a renaming connects them, their polynomial maps,
+and the exact decision where conditions 1 to 7 do not decide: one fibre as a polynomial ideal.
 """
 
 import re
@@ -43,13 +43,13 @@ def is_writable(model: AnyModel) -> bool:
 
 
 def measurand(models: Iterable[Chain | AnyModel]) -> str:
-    """What is measured of them: of circuits an impedance, of anything else a response."""
+    """Measured quantity of the models: an impedance for circuits, a response otherwise."""
     networks = [None if isinstance(m, Chain) else m.network for m in models]
     return "impedance" if all(map(_has_impedance, networks)) else "response"
 
 
 def _has_impedance(network: Network | None) -> bool:
-    """Whether it is a circuit whose voltage is measured where the current flows."""
+    """Return True if it is a circuit whose voltage is measured where the current flows."""
     if network is None:
         return False
     return network.sort is Sort.CIRCUIT and network.inputs == network.outputs
@@ -222,8 +222,8 @@ def coefficient_map(model: Model) -> CoefficientMap:
 
 
 def is_renamed(left: AnyModel, right: AnyModel, renaming: dict[str, str]) -> bool:
-    """Whether renaming the left parameters, one to one, turns all left transfer functions into the
-    right ones: exact.
+    """Return True if renaming the left parameters, one to one, turns all left transfer functions
+    into the right ones: exact.
     """
     if left.shape != right.shape or sorted(renaming) != sorted(left.parameters):
         return False
@@ -238,7 +238,9 @@ def is_renamed(left: AnyModel, right: AnyModel, renaming: dict[str, str]) -> boo
 
 
 def _carried(left: Model, right: Model, sources: list[int]) -> bool:
-    """Whether the coefficients become those of the other one, all or none with the sign changed."""
+    """Return True if the coefficients become those of the other one, with the sign of all or none
+    changed.
+    """
     sides = [(*m.numerator_terms, *m.denominator_terms) for m in (left, right)]
     moved = [{tuple(e[i] for i in sources): c for e, c in terms} for terms in sides[0]]
     wanted = [dict(terms) for terms in sides[1]]

@@ -86,7 +86,7 @@ class Synthesis:
 
     @property
     def extent(self) -> str:
-        """How many there are."""
+        """Number of solutions, in words."""
         if self.choices:
             return Extent.FAMILY.value
         return POSITIVE if self.complete else Extent.UNKNOWN.value

@@ -78,7 +78,7 @@ class GeneralModel:
 
     @property
     def is_numbered(self) -> bool:
-        """Whether there are several."""
+        """True if there are several transfer functions."""
         return len(self.model.cells) > 1
 
     def quotients(self, point: Sequence[int], modulus: int) -> tuple[Quotient | None, ...]:

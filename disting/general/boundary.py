@@ -89,8 +89,8 @@ def without(model: Model, zero: tuple[str, ...]) -> Model | None:
 
 
 def keeps_functions(model: Model, other: Model, less: Model) -> bool:
-    """Whether the given model and the other one without parameters have the rank that the theorem
-    asks for.
+    """Return True if the given model and the other one without parameters have the rank that the
+    theorem requires.
     """
     enough = dimension_at_most(other)
     return dimension_at_least(less) >= enough and dimension_at_least(model) >= enough

@@ -168,8 +168,8 @@ def _factored(
 
 
 def _excluded(search: Search, equations: tuple[fmpz_mpoly, ...]) -> bool:
-    """Whether two of the equations contain one unknown only and the same: its common roots are
-    those of their resultant.
+    """Close the case if two of the equations contain the same unknown and no other: its common
+    roots are those of their resultant.
     """
     alone = [(e, u[0]) for e in equations if len(u := search.ring.occurring([e])) == 1]
     for (first, at), (second, place) in combinations(alone, 2):
@@ -232,7 +232,9 @@ def _place(search: Search, case: Case, at: int, rest: fmpz_mpoly, factor: fmpz_m
 
 
 def _eliminate(search: Search, case: Case) -> bool:
-    """Whether two equations in two unknowns were replaced by others (see `elimination`)."""
+    """Replace two equations in two unknowns by others (see `elimination`); return True if that
+    succeeded.
+    """
     ring = search.ring
     the_branches = branches(ring, *case.equations) if len(case.equations) == PAIR else None
     if the_branches is None:

@@ -60,7 +60,7 @@ class ClosedForm:
 
     @property
     def checked(self) -> str:
-        """How surely it is an identity, in words."""
+        """Certainty of the identity, in words."""
         return f"identity checked, {Certainty.BOUNDED.in_words(self.safety)}"
 
     @property
@@ -155,7 +155,9 @@ def confirm(form: ClosedForm, model: AnyModel, other: AnyModel) -> ClosedForm:
 
 
 def _agrees(form: ClosedForm, model: AnyModel, other: AnyModel, label: str) -> bool:
-    """Whether both transfer functions agree at one point, whatever the signs of the roots."""
+    """Return True if both transfer functions agree at one point, whatever the signs of the
+    roots.
+    """
     modulus = prime(label)
     field = fmpz_mod_ctx(modulus)
     for draw in range(DRAWS):
@@ -220,7 +222,9 @@ def _polynomial(polynomial: fmpz_mpoly, at: Mapping[str, Residue]) -> Residue:
 
 
 def _same(model: AnyModel, other: AnyModel, p: Sequence[Residue], q: Sequence[Residue]) -> bool:
-    """Whether all coefficients over the leading one are the same, no leading one being zero."""
+    """Return True if all coefficients divided by the leading one are equal, with nonzero leading
+    coefficients.
+    """
     for own_model, other_model in zip(model.entries, other.entries, strict=True):
         own_values, other_values = (
             [_value_of(t, at) for t in (*m.numerator_terms, *m.denominator_terms)]

@@ -38,8 +38,8 @@ SparsePolynomial = dict[Exponents, Fraction]
 
 
 def excludes(model: Model, values: Values, other: Model, degree: int = DEGREE) -> bool:
-    """Whether no point around this one has a positive equivalent in the other model, as far as a
-    combination with products of up to so many monomials shows it.
+    """Return True if no point around this one has a positive equivalent in the other model, as far
+    as a combination with products of at most this number of monomials proves it.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
@@ -65,7 +65,7 @@ def excludes(model: Model, values: Values, other: Model, degree: int = DEGREE) -
 
 
 def is_tried(other: Model) -> bool:
-    """Whether there are few enough numbers to look for at all."""
+    """Return True if there are few enough numbers for a search."""
     count = sum(map(bool, _coefficients(other)))
     return len(_monomials(other)) * count * (count - 1) // 2 <= MOST
 
@@ -75,7 +75,7 @@ def _monomials(model: Model) -> list[Exponents]:
 
 
 def _is_positive(products: list[SparsePolynomial]) -> bool:
-    """Whether a combination is found all of whose coefficients are positive."""
+    """Return True if a combination with only positive coefficients is found."""
     places = {e: at for at, e in enumerate(sorted({e for p in products for e in p}))}
     numbers = _numbers(products, places)
     if numbers is None:

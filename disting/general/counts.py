@@ -1,5 +1,5 @@
-"""How many equivalents there are in a case with one equation and one unknown, where it is the same
-number for all parameters.
+"""Number of equivalents in a case with one equation and one unknown, where it is the same for all
+parameters.
 
 THEOREM. Let h, g_1, g_2, .. be polynomials in p and x. Let no positive p be such that (1) the first
 or the last coefficient of h in x is zero, (2) h and its derivative by x have a common zero x > 0,
@@ -33,8 +33,8 @@ POINT = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43)
 
 
 def number_of_roots(ring: Orthant, case: Case) -> int | None:
-    """How many values of the only unknown solve the only equation with all inequalities in which it
-    is, the same number for all positive p; None where that is not shown.
+    """Number of values of the only unknown that solve the only equation with all inequalities in
+    it, the same number for all positive p; None where that is not proven.
     """
     free = ring.occurring((*case.equations, *case.positive))
     if ring.domain is not Domain.POSITIVE or len(case.equations) != 1 or len(free) != 1:
@@ -77,8 +77,8 @@ def at_roots(ring: Orthant, case: Case) -> Case | str:
 def remainder(
     ring: Orthant, polynomial: fmpz_mpoly, equation: fmpz_mpoly, lead: fmpz_mpoly, at: int
 ) -> fmpz_mpoly:
-    """What has the sign of a polynomial where an equation with a positive leading coefficient is
-    zero.
+    """Polynomial with the sign of the given one where an equation with a positive leading
+    coefficient is zero.
     """
     degree, x = int(equation.degrees()[at]), ring.generators[at]
     while (high := int(polynomial.degrees()[at])) >= degree and polynomial:
@@ -90,7 +90,7 @@ def remainder(
 
 
 def _are_apart(ring: Orthant, polynomial: fmpz_mpoly, other: fmpz_mpoly, at: int) -> bool:
-    """Whether no positive p and x are zeros of both; False where that is not seen."""
+    """Return True if no positive p and x are zeros of both; False where that is not found."""
     degrees = int(polynomial.degrees()[at]) * int(other.degrees()[at])
     if not degrees:
         return bool(ring.sign(other))
@@ -127,9 +127,9 @@ def count_roots_at(
     at: int,
     point: Mapping[int, int],
 ) -> int | None:
-    """How many real roots (positive ones, over positive parameters) an equation has at a point of
-    whole numbers, and near it, at which all products that are `asked` are positive; every sign
-    certified.
+    """Count the real roots (positive ones, over positive parameters) that an equation has at a
+    point of whole numbers, and near it, at which all products that are `asked` are positive; every
+    sign certified.
 
     None at a special point: where roots are multiple or infinite, or what is asked or to be
     `nonzero` is zero.

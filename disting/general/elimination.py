@@ -83,13 +83,13 @@ def branches(ring: Orthant, polynomial: fmpz_mpoly, other: fmpz_mpoly) -> Branch
 
 
 def divides(factor: fmpz_mpoly, polynomial: fmpz_mpoly) -> bool:
-    """Whether an irreducible polynomial divides another one."""
+    """Return True if an irreducible polynomial divides another one."""
     return not polynomial.gcd(factor).is_constant()
 
 
 def _apart(ring: Orthant, factor: fmpz_mpoly, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
-    """What is not zero where both have no common zero: their resultant, or 0 if it is too large, so
-    that nothing is said of any p.
+    """Polynomial that is nonzero where both have no common zero: their resultant, or 0 if it is too
+    large, which gives no statement for any p.
     """
     if not polynomial.degrees()[at]:
         return polynomial
@@ -238,8 +238,8 @@ def inequalities(
 
 
 def simplify(ring: Orthant, polynomial: fmpz_mpoly) -> fmpz_mpoly | None:
-    """What has to be positive for a polynomial to be, 1 where it always is; None where it never
-    is.
+    """Polynomial that must be positive for the given one to be positive, 1 where it always is; None
+    where it never is.
     """
     if polynomial.is_zero():
         return None

@@ -1,6 +1,4 @@
-"""What a user writes down: matrices and lists of entries, checked for shape and turned into
-trees.
-"""
+"""User input: matrices and lists of entries, checked for shape and turned into trees."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -131,7 +129,7 @@ def _matrix(entries: object, name: str) -> Matrix:
 
 
 def _is_flat(entries: object) -> bool:
-    """Whether it is one entry, or a list of entries."""
+    """Return True if it is one entry, or a list of entries."""
     return not any(map(_is_list, _entries(entries)))
 
 

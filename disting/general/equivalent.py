@@ -48,7 +48,7 @@ class Equivalent:
 
     @property
     def is_rational(self) -> bool:
-        """Whether all values are exact."""
+        """True if all values are exact."""
         return all(len(c) <= 1 for c in self.coordinates)
 
     def __str__(self) -> str:

@@ -1,4 +1,4 @@
-"""Which exponents of constant phase elements a function determines.
+"""Exponents of constant phase elements that a function determines.
 
 A function N/D in lowest terms is made of powers s^(i + j.n), i the power of s, j those of all s^n.
 Let it be N'/D' with other exponents m as well, both n and m generic. Then N = s^c N', D = s^c D',
@@ -24,7 +24,7 @@ Parts = tuple[int, ...]
 
 
 def count_determined(cells: Sequence[Cell], size: int) -> tuple[int, tuple[int, ...]]:
-    """How many combinations of so many exponents the functions determine, and which single ones.
+    """Count the combinations of exponents that the functions determine, and find the single ones.
 
     Only combinations c with c.e = const for all powers e of all s^n of both sides are not: a change
     along them is one of the unit of s, as ln s is no function of this kind.
@@ -43,9 +43,9 @@ def _rank(rows: Sequence[Sequence[int]], size: int) -> int:
 
 
 def may_be_others(cells: Sequence[Cell], powers: Powers) -> bool:
-    """Whether other exponents between 0 and 1 than these, in another order, may give functions that
-    are made of the same powers: False where no other map T is left; of several functions, and where
-    too many maps would have to be tried, True.
+    """Return True if other exponents between 0 and 1 than these, in another order, may give
+    functions made of the same powers: False where no other map T remains; True for several
+    functions, and where too many maps would have to be tried.
     """
     if len(cells) > 1:
         return True
@@ -81,8 +81,8 @@ def _basis(sides: Sequence[frozenset[Parts]], size: int) -> list[list[Parts]]:
 
 
 def _keeps(change: fmpq_mat, side: frozenset[Parts]) -> bool:
-    """Whether (i, j) + (i', 0), with i' and the new j from the rows (c0, c1) and (b, B^T), stays in
-    the side.
+    """Return True if (i, j) + (i', 0), with i' and the new j from the rows (c0, c1) and (b, B^T),
+    remains in the side.
     """
     for first, *others in side:
         i, *j = (fmpq_mat(fmpz_mat([[1, *others]])) * change).entries()
@@ -92,7 +92,7 @@ def _keeps(change: fmpq_mat, side: frozenset[Parts]) -> bool:
 
 
 def _is_another(change: fmpq_mat, size: int, step: int) -> bool:
-    """Whether m = b + B^T n may lie between 0 and 1 and is no permutation of n."""
+    """Return True if m = b + B^T n may lie between 0 and 1 and is not a permutation of n."""
     rows = [change.tolist()[r] for r in range(1, size + 1)]
     unit = [sorted(map(int, row[1:])) == [*[0] * (size - 1), 1] for row in rows]
     if all(row[0] == 0 and is_unit for row, is_unit in zip(rows, unit, strict=True)):

@@ -126,7 +126,7 @@ class _Reader:
         self.next = next(self._tokens)
 
     def error(self) -> InputError:
-        """What is wrong as a whole: signs are missing, or there are others than those known."""
+        """Error in the text as a whole: missing or unknown signs."""
         if re.search(r"[^\w\s.+*/()-]|\w\s*\(|//|__", self.text):
             reason = (
                 "is no rational expression: numbers, names and + - * / ** with whole exponents"

@@ -39,7 +39,7 @@ CHOICES = 5  # values for one free parameter: finitely many are no good
 
 
 class Extent(StrEnum):
-    """How many parameter vectors there are."""
+    """Number of parameter vectors."""
 
     NONE = "none"
     FINITE = "finite"
@@ -190,7 +190,7 @@ def _excluded(ideal: Basis) -> tuple[Domain, ...]:
 
 
 def _has_no_real_zero(polynomial: fmpz_mpoly) -> bool:
-    """Whether it has one unknown and no real root."""
+    """Return True if it has one unknown and no real root."""
     used = [i for i, degree in enumerate(polynomial.degrees()) if degree]
     if len(used) != 1:
         return False

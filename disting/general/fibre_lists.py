@@ -58,8 +58,8 @@ def find_equivalent(model: AnyModel, values: Values, other: AnyModel) -> tuple[f
 
 
 def has_no_equivalent(model: AnyModel, values: Values, other: AnyModel) -> bool:
-    """Whether no point around this one has a positive equivalent in the other model, as far as is
-    shown.
+    """Return True if it is proven that no point around this one has a positive equivalent in the
+    other model.
     """
     if not (isinstance(model, Model) and isinstance(other, Model)):
         return False
@@ -78,13 +78,13 @@ def has_no_equivalent(model: AnyModel, values: Values, other: AnyModel) -> bool:
 
 
 def is_in_one_variable(powers: Powers, other: Powers) -> bool:
-    """Whether both count powers of the same v."""
+    """Return True if both count powers of the same v."""
     weights = zip(powers.weights, other.weights, strict=False)
     return powers.halves == other.halves and all(a == b for (_, a), (_, b) in weights)
 
 
 def _there(model: Model) -> tuple[list[bool], list[bool]]:
-    """Which coefficients are not zero for all parameters."""
+    """Flags of the coefficients that are not identically zero."""
     return list(map(bool, model.numerator_terms)), list(map(bool, model.denominator_terms))
 
 
@@ -97,7 +97,7 @@ def goal_of(model: Model, values: Values) -> Target | None:
 
 
 def is_regular(model: Model, values: Values) -> bool:
-    """Whether numerator and denominator are coprime and of full degree at a point."""
+    """Return True if numerator and denominator are coprime and of full degree at a point."""
     goal = goal_of(model, values)
     return goal is not None and model.degrees == (
         len(goal.numerator) - 1,

@@ -42,7 +42,7 @@ class Step:
 
     @property
     def made_of(self) -> tuple[RationalFunction, ...]:
-        """What it is written with."""
+        """Rational functions in which the step is written."""
         return self.root or (self.value,)
 
     def renamed(self, name: str, by: Sequence[fmpz_mpoly]) -> "Step":
@@ -77,7 +77,7 @@ class Arithmetic:
         return self.one - self.one
 
     def is_zero(self, value: Any) -> bool:
-        """Whether it is written as zero."""
+        """Return True if it is written as zero."""
         return bool(value == self.zero)
 
     def short(self, value: Any) -> Any:
@@ -261,7 +261,7 @@ def compose(value: RationalFunction, by: Sequence[fmpz_mpoly]) -> RationalFuncti
 
 
 def letters(polynomial: fmpz_mpoly) -> int:
-    """How many symbols are written, powers apart; a number is one."""
+    """Number of written symbols, not counting powers; a number is one."""
     return sum(max(1, sum(map(bool, e))) for e in polynomial.monoms())
 
 

@@ -60,12 +60,12 @@ class Forms:
     larger: tuple[bool, bool]
 
     def are_drawn(self, *models: AnyModel) -> bool:
-        """Whether both are the given ones in other numbers: nothing is replaced."""
+        """Return True if both are the given ones with other numbers: nothing is replaced."""
         pairs = [(m.network, form.network) for m, form in zip(models, self.models, strict=True)]
         return all(a and b and same_drawing(a, b) for a, b in pairs)
 
     def evidence(self, inner: OfNetworks) -> Replacement:
-        """What evidence on them says of the others."""
+        """Evidence on the other models that follows from the evidence on these."""
         left, right = (model.name for model in self.models)
         return Replacement(left, right, *self.larger, inner)
 
@@ -73,7 +73,7 @@ class Forms:
 def by_forms(
     left: AnyModel, right: AnyModel, seed: str, effort: Effort = THOROUGH
 ) -> Finding | None:
-    """What the simplest networks tell over positive parameters, ABANDONED if they leave it open;
+    """Finding from the simplest networks over positive parameters, ABANDONED if they leave it open;
     None where nothing is replaced.
     """
     finding = None
@@ -97,7 +97,9 @@ def by_forms(
 def by_inverse(
     left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
 ) -> Finding | None:
-    """What the same networks tell with 1/s for s, over positive parameters; None if nothing."""
+    """Finding from the same networks with 1/s for s, over positive parameters; None if there is
+    none.
+    """
     models = inverse_of(left, right)
     if models is None:
         return None
@@ -168,7 +170,7 @@ def _with_network(model: AnyModel, network: Network) -> AnyModel:
 def confirms_forms(
     evidence: OfSubstitutes, left: AnyModel, right: AnyModel, representation: str = "tf"
 ) -> bool:
-    """Whether these networks stand for both, and what is said of them is true."""
+    """Return True if these networks may replace both, and the inner evidence holds for them."""
     inner = evidence.inner
     if isinstance(evidence, Replacement):
         models = _stand_for(evidence, left, right)
@@ -209,7 +211,9 @@ def _stand_for(
 
 
 def of_equals(finding: Finding, left: str, right: str) -> Finding:
-    """What is found of two networks with these texts, of two others that give the same."""
+    """Finding for two other networks that give the same functions, from that for two networks with
+    these texts.
+    """
     evidence = finding.evidence
     if not isinstance(evidence, OfNetworks):
         note = with_names(finding.note, left, right)
@@ -222,7 +226,7 @@ def of_equals(finding: Finding, left: str, right: str) -> Finding:
 def by_parts(
     left: AnyModel, right: AnyModel, settings: Settings, effort: Effort = THOROUGH
 ) -> Finding | None:
-    """What a brief search of parts of either network tells over positive values, if anything."""
+    """Finding from a brief search of parts of either network over positive values, if any."""
     for left_is_part in BOTH:
         for missing, part in islice(parts_of(left if left_is_part else right), effort.parts):
             pair = (part, right) if left_is_part else (left, part)
@@ -233,7 +237,9 @@ def by_parts(
 
 
 def of_part(finding: Finding, left_is_part: bool, missing: Labels) -> Finding | None:
-    """What is found of a network without these elements and another one, of the whole network."""
+    """Finding for the whole network, from that for a network without these elements and another
+    one.
+    """
     if not isinstance(finding.evidence, OfNetworks):
         return None
     evidence = OfPart(left_is_part, missing, finding.evidence)
@@ -290,4 +296,4 @@ BRIEFLY = Question(
     Finding.to_json,
     _admissible_from_json,
 )
-"""What is found within small bounds: of the pairs of a large family."""
+"""Small search bounds, for the pairs of a large family."""

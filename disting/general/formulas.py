@@ -61,8 +61,8 @@ def of_boundary(left_given: bool, other: AnyModel, boundary: Boundary) -> Iterat
 
 
 def is_explicit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
-    """Whether every formula gives the same transfer function, and those of either side are all that
-    a way found anew gives every generic parameter an equivalent by.
+    """Return True if every formula gives the same transfer function, and those of either side are
+    all of those by which a freshly found solution gives every generic parameter an equivalent.
     """
     pairs = {True: (left, right), False: (right, left)}
     stated = {side: tuple(f for f in evidence.formulas if f[0] is side) for side in pairs}
@@ -89,13 +89,15 @@ def _found_anew(
 
 
 def fit(evidence: Explicit, left: AnyModel, right: AnyModel) -> bool:
-    """Whether every formula gives the same transfer function, as put into both models anew."""
+    """Return True if every formula gives the same transfer function when substituted into both
+    models again.
+    """
     sides = {True: (left, right), False: (right, left)}
     return all(_fits(f, *sides[f[0]], Domain(evidence.domain)) for f in evidence.formulas)
 
 
 def is_without(evidence: NoEquivalent, left: AnyModel, right: AnyModel) -> bool:
-    """Whether the cases found anew are all closed, by these contradictions."""
+    """Return True if the freshly found cases are all closed, by these contradictions."""
     model, other = (left, right) if evidence.left_given else (right, left)
     ways = ways_by_all(model, other, Domain(evidence.domain))
     return any(way.never and way.closed == evidence.contradictions for way in ways)
@@ -134,8 +136,8 @@ def _names(way: Way) -> list[str]:
 
 
 def _fits(formula: Formula, model: AnyModel, other: AnyModel, domain: Domain) -> bool:
-    """Whether c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one, and
-    what must not be zero is not.
+    """Return True if c_i(q) lead(p) = c_i(p) lead(q) for all coefficients, where the root is one,
+    and the values that must be nonzero are.
 
     That is lead(q), all denominators and, over positive numbers, the values: none is zero or has a
     root in common with the equation for all p.
@@ -196,15 +198,15 @@ def _ring(names: list[str]) -> tuple[fmpz_mpoly, ...]:
 
 
 def _is_multiple(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
-    """Whether a polynomial vanishes where an irreducible one does (0: only zero does)."""
+    """Return True if a polynomial vanishes where an irreducible one does (0: only zero does)."""
     return bool(polynomial.is_zero()) or (
         not of.is_zero() and not of.is_constant() and bool(of.gcd(polynomial) in (of, -of))
     )
 
 
 def _is_apart(polynomial: fmpz_mpoly, of: fmpz_mpoly) -> bool:
-    """Whether a polynomial is not zero, nor at any root of another one, for generic values of
-    all symbols but the first.
+    """Return True if a polynomial is nonzero, also at any root of another one, for generic values
+    of all symbols but the first.
     """
     return not polynomial.is_zero() and (of.is_zero() or not polynomial.gcd(of).degrees()[0])
 

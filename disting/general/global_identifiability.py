@@ -1,4 +1,5 @@
-"""How many parameter vectors of a model have one generic transfer function, and what it determines.
+"""Number of parameter vectors of a model with one generic transfer function, and the values that it
+determines.
 
 The equivalents of a model in itself (see `cases`, over the complex numbers) are written down as
 fractions of its parameters p, or by the roots of one irreducible polynomial of degree d over the
@@ -81,8 +82,8 @@ class GlobalIdentifiability(NotebookTable):
 def global_identifiability(
     model: AnyModel, settings: Settings = SETTINGS, *, tries: int = ORDERS
 ) -> GlobalIdentifiability:
-    """How many parameter vectors fit, and what is determined, from so many `tries` of orders in
-    which unknowns are solved for. Raises InputError for what is no model.
+    """Count the parameter vectors that fit and find the determined values, from this number of
+    `tries` of orders in which unknowns are solved for. Raises InputError for what is no model.
 
     >>> from disting.general.matrix_model import Model
     >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))

@@ -1,6 +1,6 @@
-"""Which parameters of a general model its transfer functions determine, for any number of inputs
-and outputs: locally, from the Jacobian of its invariants at random points; each one globally,
-locally or not at all.
+"""Parameters of a general model that its transfer functions determine, for any number of inputs and
+outputs: locally, from the Jacobian of its invariants at random points; each one globally, locally
+or not at all.
 
 Parameter j is locally identifiable (generically: finitely many values fit) exactly if the unit
 vector e_j lies in the row space of the Jacobian J at a generic point, that is if J without column

@@ -68,8 +68,8 @@ def inequalities(model: Model) -> tuple[Form, ...]:
 
 
 def excludes_around(model: Model, values: Values, other: Model) -> bool:
-    """Whether no point around this one has a positive equivalent in the other model, as far as an
-    inequality shows it.
+    """Return True if no point around this one has a positive equivalent in the other model, as far
+    as an inequality proves it.
     """
     if not (are_alike(model, other) and is_regular(model, values)):
         return False
@@ -102,8 +102,8 @@ def contradiction(model: Model, other: Model) -> Labelled | None:
 
 
 def is_contradiction(form: Labelled, model: Model, other: Model) -> bool:
-    """Whether it tells two models apart: seen from the signs of all coefficients; almost all points
-    are regular if one is.
+    """Return True if it distinguishes two models: decided by the signs of all coefficients; almost
+    all points are regular if one is.
     """
     names = _labels(other)
     is_known = all(name in names for _, *pair in form for name in pair)

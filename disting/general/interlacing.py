@@ -55,8 +55,8 @@ class MachineType:
 
 
 def sets_of(model: AnyModel) -> dict[str, object]:
-    """What theorems on networks say that it gives, by their names: another model that gives the
-    same is the same, None says nothing.
+    """Sets of functions that the model gives by theorems on networks, by their names: models with
+    equal sets are equivalent, None gives no information.
     """
     return {REPLACEMENT: simplest_network(model), INTERLACING: machine_type(model)}
 
@@ -98,7 +98,9 @@ def machine_type(model: AnyModel) -> MachineType | None:
 
 
 def is_held_tree(network: Network) -> bool:
-    """Whether it is made of masses, springs that join them as a tree, and one to the ground."""
+    """Return True if it is made of masses, springs that connect them as a tree, and one to the
+    ground.
+    """
     elements, nodes = network.elements, network.nodes
     springs = [e for e in elements if e.letter == "k"]
     joints = [e for e in springs if 0 not in _ends(e)]
@@ -160,7 +162,7 @@ def _lowest(polynomial: fmpz_mpoly, x: fmpz_mpoly) -> tuple[fmpz_mpoly, fmpz_mpo
 
 
 def _are_zeros_of(polynomial: fmpz_mpoly, chosen: Sequence[fmpz_mpoly]) -> bool:
-    """Whether it is the product of these but for a factor without x."""
+    """Return True if it is the product of these except for a factor without x."""
     x = polynomial.context().gens()[0]
     wanted = prod(chosen, start=x**0)
     return bool(polynomial * (wanted % x) == wanted * (polynomial % x))

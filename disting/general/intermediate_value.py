@@ -137,8 +137,8 @@ def _changed(ring: Orthant, equation: fmpz_mpoly, at: int, low: Mark, high: Mark
 def _holds_to_root(
     ring: Orthant, polynomial: fmpz_mpoly, equation: fmpz_mpoly, at: int, way: tuple[End, End]
 ) -> bool:
-    """Whether it is positive from the start to the first root: on the whole way, or as the theorem
-    says. The equation is positive at the goal.
+    """Return True if it is positive from the start to the first root: on the whole way, or by the
+    theorem. The equation is positive at the goal.
     """
     if _holds_between(ring, polynomial, at, *way):
         return True
@@ -164,7 +164,7 @@ def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | No
 
 
 def _of_odd_roots(equation: fmpz_mpoly, at: int) -> fmpz_mpoly:
-    """What has the roots of an equation at which it changes its sign, once each, whatever the p:
+    """Polynomial with the roots of an equation at which it changes its sign, once each, for all p:
     factors without the unknown and even powers do not belong to an equation for it.
     """
     parts = factorise(equation)[1]

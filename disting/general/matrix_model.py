@@ -248,7 +248,7 @@ class Model(NotebookTable):
 
     @property
     def _counts(self) -> Counts | None:
-        """What is known of a network without its terms."""
+        """Known properties of a network without its terms."""
         network = self.network
         return None if network is None else counts_of(network, self.powers.halves)
 
@@ -414,7 +414,7 @@ class MatrixModel(NotebookTable):
 
     @property
     def powers(self) -> Powers:
-        """What the powers of v are, but for what was cancelled."""
+        """Powers that those of v denote, except for cancelled ones."""
         return replace(self.entries[0].powers, lost=0)
 
     @property
@@ -452,7 +452,9 @@ AnyModel = Model | MatrixModel
 
 
 def _counted(cell: Network) -> tuple[bool, Model | None]:
-    """Whether what a network does between two ports is known without its terms, and what it is."""
+    """Pair of a flag, True if the function of a network between two ports is known without its
+    terms, and its model.
+    """
     if not cell.seen:
         return True, None
     is_known = counts_of(cell, cell.halves) is not None

@@ -39,7 +39,7 @@ class Number(str):
 
 
 def plain_of(content: bytes) -> object:
-    """What the bytes hold, numbers as their texts; raises InputError for what is no such JSON."""
+    """Parse the bytes as JSON, numbers as their texts; raises InputError for other content."""
     try:
         return json.loads(
             content.decode("utf-8-sig"),
@@ -193,7 +193,7 @@ def _of_chain(entry: Plain, name: str) -> Model:
 
 
 def _can_be_listed(chain: Chain) -> bool:
-    """Whether a file can name it: it has a number, and not too many masses."""
+    """Return True if a file can name it: it has a number, and not too many masses."""
     return chain.n_masses <= LARGEST_CHAIN and not name_of(chain).startswith("(")
 
 
@@ -236,6 +236,6 @@ def _refuse_missing(entry: Plain, keys: Iterable[str]) -> None:
 
 
 def refuse_s(model: AnyModel) -> None:
-    """What is told of a model is written in s, whatever the file calls it."""
+    """Refuse a parameter called s, the frequency variable of every result."""
     if "s" in model.parameters:
         raise InputError("s is a parameter, but stands for the frequency variable; rename it")

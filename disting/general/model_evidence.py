@@ -1,5 +1,5 @@
-"""Whether what a verdict on two general models rests on is true, seen anew, and how surely it shows
-what it shows.
+"""Checks of the evidence for verdicts on two general models (recomputed from scratch), and its
+certainty.
 """
 
 from collections.abc import Iterator
@@ -46,9 +46,9 @@ AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradictio
 def confirms_models(
     evidence: Evidence, left: AnyModel, right: AnyModel, representation: str = "tf"
 ) -> bool:
-    """Whether the evidence holds: summaries are looked at at fresh points; renamings, solutions and
-    formulas are put into the transfer functions; contradictions and the cases that the formulas
-    cover, or that are closed, are found again.
+    """Return True if the evidence holds: summaries are computed at fresh points; renamings,
+    solutions and formulas are substituted into the transfer functions; contradictions and the cases
+    that the formulas cover, or that are closed, are found again.
 
     Raises NotSeenError where a contradiction takes too long.
     """
@@ -65,7 +65,9 @@ def confirms_models(
 
 
 def _found_again(evidence: Kind, left: AnyModel, right: AnyModel) -> bool:
-    """What the exact decision, or the one on real and positive parameters, rests on."""
+    """Recompute the evidence of the exact decision, or of the decision over real and positive
+    parameters.
+    """
     return check(evidence, deciders_of(Of.NETWORKS), left, right)
 
 
@@ -101,7 +103,7 @@ def recheck_labels(
 
 
 def check_constants(evidence: Constants, left: AnyModel, right: AnyModel) -> bool:
-    """Whether these are constants of both models that differ, by their exact values."""
+    """Return True if these are constants of both models that differ, by their exact values."""
     sides = [behaviour_of(model).constants(None) for model in (left, right)]
     stated = (evidence.left, evidence.right)
     constants = [tuple(map(side.get, evidence.labels)) for side in sides]
@@ -111,8 +113,8 @@ def check_constants(evidence: Constants, left: AnyModel, right: AnyModel) -> boo
 
 
 def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
-    """Whether both points are what they are said to be, and all parameters near them: the search
-    is done anew; and whether the equivalent and the number of solutions are those of these points.
+    """Return True if both points, and all parameters near them, have the stated properties (the
+    search is repeated), and the equivalent and the number of solutions are those of these points.
 
     Points with a zero are refused: signs are those of parameters without zeros (see `orthant`).
     """
@@ -140,7 +142,7 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
 
 
 def _is_rounded(value: tuple[str, str]) -> bool:
-    """Whether a value is written as `spell` writes it."""
+    """Return True if a value is written as `spell` writes it."""
     try:
         return spell(float(value[1])) == value[1]
     except ValueError:
@@ -150,7 +152,9 @@ def _is_rounded(value: tuple[str, str]) -> bool:
 def _has(
     model: AnyModel, other: AnyModel, values: Values, stated: tuple[float, ...], domain: Domain
 ) -> bool:
-    """Whether what is stated is the equivalent (rounded) of a point around which all have some."""
+    """Return True if the stated values are the equivalent (rounded) of a point around which all
+    points have some.
+    """
     return any(
         seen and all(isclose(x, y, rel_tol=ROUNDED) for x, y in zip(seen, stated, strict=True))
         for seen in _equivalents(model, other, values, stated, domain)
@@ -189,7 +193,7 @@ def check_inequalities(evidence: Inequality | Witnesses, left: AnyModel, right: 
 
 
 def is_inequality(evidence: Inequality, left: AnyModel, right: AnyModel) -> bool:
-    """Whether the form has these signs."""
+    """Return True if the form has these signs."""
     model, other = (left, right) if evidence.left_given else (right, left)
     if not (isinstance(model, Model) and isinstance(other, Model)):
         return False

@@ -1,5 +1,5 @@
-"""Which general models of unequal rank lie in the closure of one another: where missing elements of
-networks show it, and where degrees, ranks and free invariants do. No fibre is looked at.
+"""Inclusions of general models of unequal rank in the closure of each other: by missing elements of
+networks, or by degrees, ranks and free invariants. No fibre is looked at.
 
 Over complex parameters. The lemma of `decide.inclusion.profiles` speaks of any rational
 functions, the theorem of `network.minors` of networks.
@@ -50,8 +50,8 @@ def inclusions_of(
 def confirms_inclusion(
     evidence: InclusionEvidence, left: AnyModel, right: AnyModel, left_is_smaller: bool
 ) -> bool:
-    """Whether evidence of an inclusion holds: places of missing elements are looked at again, all
-    else is found again at fresh points.
+    """Return True if the evidence of an inclusion holds: places of missing elements are checked
+    again, everything else is found again at fresh points.
     """
     rows = deciders_of(Of.NETWORKS, OF_INCLUSIONS)
     return check(evidence, rows, left, right, left_is_smaller)
@@ -66,7 +66,7 @@ def check_minor(evidence: Minor, left: AnyModel, right: AnyModel, left_is_smalle
 def check_profiles(
     evidence: InclusionEvidence, left: AnyModel, right: AnyModel, left_is_smaller: bool
 ) -> bool:
-    """What fresh profiles say."""
+    """Return True if the evidence agrees with fresh profiles."""
     small, large = order(left, right, left_is_smaller)
     fresh = [profile(behaviour_of(m), Representation.TF, 0, FRESH) for m in (small, large)]
     given = small, large, (fresh[0], fresh[1]), left_is_smaller
@@ -104,8 +104,8 @@ def by_minors(
 
 
 def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
-    """Whether the part is the whole without these elements: by its places, or, of one-ports, by
-    its branches.
+    """Return True if the part is the whole without these elements: by its places, or, for
+    one-ports, by its branches.
     """
     if small.network is None or large.network is None:
         return False
@@ -124,12 +124,12 @@ def _is_what_remains(evidence: Minor, small: AnyModel, large: AnyModel) -> bool:
 def have_degrees(
     small: AnyModel, large: AnyModel, profiles: tuple[Profile, Profile], left_is_smaller: bool
 ) -> bool:
-    """Whether degrees bound those of limits: not those in v, where exponents may change."""
+    """Return True if degrees bound those of limits: not those in v, where exponents may change."""
     return not any(m.powers.weights for m in (small, large))
 
 
 def of_profiles(
     small: AnyModel, large: AnyModel, profiles: tuple[Profile, Profile], left_is_smaller: bool
 ) -> InclusionFinding | None:
-    """What degrees, ranks of projections and a full image settle."""
+    """Inclusion that degrees, ranks of projections and a full image prove."""
     return by_profiles(*profiles, left_is_smaller=left_is_smaller)

@@ -63,7 +63,7 @@ class NetworkModel:
 
     @property
     def is_numbered(self) -> bool:
-        """Whether there are several."""
+        """True if there are several transfer functions."""
         return len(self.cells) > 1
 
     @property
@@ -127,8 +127,8 @@ class NetworkModel:
 
 
 def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:
-    """What a model reveals, whatever it is called: of a network at points where its terms are
-    counted and transfer functions of as many poles have all of them in common, of others by its
+    """Behaviour of a model: of a network at points where its terms are counted and transfer
+    functions with the same number of poles have all of them in common, of others by its
     polynomials.
     """
     network, halves = model.network, model.powers.halves
@@ -143,7 +143,9 @@ def behaviour_of(model: AnyModel) -> GeneralModel | NetworkModel:
 
 
 def _shares_poles(model: NetworkModel) -> bool:
-    """Whether transfer functions with as many poles have one denominator: that of one graph."""
+    """Return True if transfer functions with the same number of poles have one denominator: that of
+    one graph.
+    """
     firsts = (shared_poles(model.degrees, i) for i in range(len(model.cells)))
     return all(
         first is None or _elements(model.cells[first]) == _elements(cell)
@@ -170,7 +172,7 @@ def _products(sides: Sides, counts: Counts, modulus: int) -> list[tuple[int, lis
 
 
 def _ratios(counts: Counts) -> tuple[list[KnownValue], list[KnownValue]]:
-    """What is known of the coefficients over the leading one."""
+    """Known values of the coefficients divided by the leading one."""
     lost = counts.lost
     top, bottom = (
         [Fraction(c) if i == free or not c else None for i, c in enumerate(side)][lost:]

@@ -88,7 +88,7 @@ class NetworkView(View):
         return None if self.chain is None else self.chain.premise
 
     def notes(self, name: str) -> tuple[str, ...]:
-        """What degrees count where that is not s, and which exponents are spoken of."""
+        """Notes on the variable that degrees count where it is not s, and on the exponents."""
         phrase = self.given.powers.sentence(name)
         return ((phrase,) if phrase else ()) + ((GENERIC,) if self.given.powers.weights else ())
 
@@ -130,7 +130,9 @@ class NetworkView(View):
 
     @cached_property
     def gives(self) -> dict[str, object]:
-        """What theorems on networks say that it gives: others that give the same are the same."""
+        """Sets of functions that the model gives by theorems on networks: models with equal sets
+        are equivalent.
+        """
         return sets_of(self.given) if self.is_writable else {}
 
 

@@ -88,7 +88,7 @@ def find_equivalent(
 
 
 def are_alike(model: Model, other: Model) -> bool:
-    """Whether both have the same coefficients, not always zero, of powers of the same s, and few
+    """Return True if both have the same nonzero coefficients of powers of the same s, and few
     enough terms for a search.
     """
     if any(sum(map(len, coefficients(m))) > MOST_TERMS for m in (model, other)):
@@ -138,7 +138,7 @@ def _independent(
 
 
 def _pivots(vectors: Sequence[Sequence[Fraction]]) -> list[int]:
-    """Which of the vectors do not depend on those before."""
+    """Indices of the vectors that are independent of those before."""
     table = fmpq_mat(
         [[fmpq(x.numerator, x.denominator) for x in line] for line in zip(*vectors, strict=True)]
     )
@@ -198,7 +198,7 @@ def _solved(matrix: arb_mat, right: arb_mat) -> arb_mat | None:
 
 
 def _follow(system: System, box: Sequence[arb]) -> bool:
-    """Whether the other coefficients agree where those that are solved for do."""
+    """Return True if the other coefficients agree where those that are solved for do."""
     if not system.others:
         return True
     balls = [sum((_term(t, box) for t in row), arb(0)) for row in system.rows]

@@ -48,9 +48,7 @@ TERMS = 150  # of a coefficient: quotients of larger ones would take seconds
 
 
 def same_one_ports(left: Model, right: Model) -> bool:
-    """Whether both models give, for positive parameters, all functions of one and the same set
-    K.
-    """
+    """Return True if both models give, for positive parameters, all functions of the same set K."""
     for change in (_plain, _over_s, _squared):
         model, other = change(left), change(right)
         if model and other and _kind(model) == _kind(other) and fills(model) and fills(other):
@@ -59,8 +57,8 @@ def same_one_ports(left: Model, right: Model) -> bool:
 
 
 def fills(model: Model) -> bool:
-    """Whether coordinates of K are fractions of the parameters that are positive and reach all
-    positive values.
+    """Return True if coordinates of K are fractions of the parameters that are positive and reach
+    all positive values.
     """
     order, at_oo, at_0 = _kind(model)
     count = 2 * order + at_oo - at_0

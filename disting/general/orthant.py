@@ -38,11 +38,11 @@ class TooMuch(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """How far equivalents are looked for: `points` of either model, of `listed` of which all
-    equivalents are listed, so many `orders` of the unknowns, combinations of equations by products
-    of this `degree`, so many `parts` of either network, elimination of so many `unknowns` at most,
-    and in each step so many `terms` of polynomials that are factored or put into each other (None:
-    without end).
+    """Effort of the search for equivalents: `points` of either model, with all equivalents listed
+    for `listed` of them, number of `orders` of the unknowns, combinations of equations by products
+    of this `degree`, number of `parts` of either network, elimination of this number of `unknowns`
+    at most, and in each step at most this number of `terms` of polynomials that are factored or
+    substituted into each other (None: unlimited).
     """
 
     points: int = 40

@@ -90,7 +90,9 @@ def includes(evidence: InclusionEvidence, left: NetworkSide, right: NetworkSide)
 def positive_question(
     left: NetworkSide, right: NetworkSide
 ) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
-    """What is asked where positive equivalents are looked for, as an engine keeps the answer."""
+    """Question of the search for positive equivalents, in the form in which an engine caches the
+    answer.
+    """
     return _question(left, right, Domain.POSITIVE)
 
 

@@ -72,5 +72,5 @@ def _profile(model: AnyModel) -> Profile:
 
 
 def _is_open(the_profile: Profile) -> bool:
-    """Whether all coefficients that vary are independent, which a rank at a point proves."""
+    """Return True if all varying coefficients are independent, which a rank at a point proves."""
     return the_profile.rank_proven and the_profile.rank == len(the_profile.form)

@@ -50,4 +50,4 @@ PLAIN_MAPS = Question(
     Finding.to_json,
     lambda text: Finding.from_json(text, ADMISSIBLE),
 )
-"""What is asked of networks that a theorem shows to be the same, special values aside."""
+"""Question on networks that are equivalent by a theorem, special values excepted."""

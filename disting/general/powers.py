@@ -35,8 +35,8 @@ Cell = tuple[Side, Side]
 
 @dataclass(frozen=True, slots=True)
 class Powers:
-    """What powers of v stand for: v is s^(1/2) with `halves`, else s; `weights` of the exponents by
-    name, that of s^n in v, rising; v^lost was cancelled; `unseen` exponents enter nowhere.
+    """Meaning of the powers of v: v is s^(1/2) with `halves`, else s; `weights` of the exponents by
+    name, that of s^n in v, rising; v^lost was cancelled; `unseen` exponents do not appear.
 
     >>> Powers(weights=(("n1", 5),)).parts(12)
     (2, 2)
@@ -108,7 +108,8 @@ class Powers:
         return whole + dict(self.weights).get(exponent, 0)
 
     def sentence(self, model: str) -> str:
-        """What degrees of a model of this name count; "" where that are powers of s.
+        """Sentence on the variable that degrees of a model of this name count; "" where they count
+        powers of s.
 
         >>> Powers(True, (("n1", 5),)).sentence("R0-p(W1,P1)")
         'degrees count powers of v: in R0-p(W1,P1) s = v^2, s^n1 = v^5'
@@ -125,7 +126,7 @@ PLAIN = Powers()
 
 
 def place_name(place: int) -> str:
-    """What the exponent of a place is called where networks are matched."""
+    """Name of the exponent of a place when networks are matched."""
     return f"n{place + 1}"
 
 
@@ -244,8 +245,8 @@ def _degree(cells: Iterable[Cell], at: int) -> int:
 
 
 def _is_coprime(cell: Cell, powers: Powers) -> bool:
-    """Whether both sides have no common factor in v: shown at one point modulo a prime, where they
-    keep their degrees.
+    """Return True if both sides have no common factor in v: shown at one point modulo a prime,
+    where they keep their degrees.
     """
     top, bottom, _ = in_v(cell, powers)
     size = len((top[-1] or bottom[-1])[0][0])

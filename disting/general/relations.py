@@ -124,7 +124,7 @@ def _value(terms: Terms, point: Sequence[int], modulus: int) -> int:
 
 
 def _kernel(rows: list[list[int]], modulus: int) -> list[list[int]]:
-    """What is orthogonal to all rows, one vector for each column without a pivot."""
+    """Basis of the vectors orthogonal to all rows, one vector for each column without a pivot."""
     reduced, rank = nmod_mat(rows, modulus).rref()
     width = len(rows[0])
     pivots = [next(j for j in range(width) if int(reduced[i, j])) for i in range(rank)]
@@ -159,7 +159,7 @@ def _fraction(residue: int, modulus: int) -> Fraction | None:
 
 
 def _holds(relation: Relation, model: Model) -> bool:
-    """Whether it is true of all values."""
+    """Return True if the relation holds for all values."""
     sides = [*reversed(model.denominator), *model.numerator]
     polynomials = [c for c in sides if not c.is_zero()]
     total: fmpz_mpoly = polynomials[0] * 0

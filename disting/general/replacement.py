@@ -1,6 +1,6 @@
-"""Whether two networks give the same transfer functions for all positive values, special ones
-aside: as they are made of parts that replace each other, or as both are one-ports of two kinds of
-elements that give all functions of one set K(n, c, z) (see `disting.network.normal_form`).
+"""Equivalence of two networks for all positive values, special ones excepted: both are made of
+parts that can replace each other, or both are one-ports of two kinds of elements that give all
+functions of one set K(n, c, z) (see `disting.network.normal_form`).
 
 One-ports that are not made in series and parallel, such as bridges. Let N be a one-port of two
 kinds of elements, and let one of its minors, in series and parallel, be of the same n, c, z.
@@ -63,8 +63,8 @@ REMEMBERED = 4096
 
 @lru_cache(maxsize=ONE_PORTS)
 def covers(model: Model, whole: Part, set_of: SetOf) -> bool:
-    """Whether a one-port of two kinds gives all functions of the set K(n, c, z), given as a part,
-    in which its generic ones are; False says nothing.
+    """Return True if a one-port of two kinds gives all functions of the set K(n, c, z), given as a
+    part, that contains its generic ones; False proves nothing.
     """
     names, network = model.parameters, model.network
     coefficients = [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]
@@ -86,7 +86,7 @@ def _order(part: Part) -> int:
 
 
 def _some_minor_reaches(model: Model, whole: Part, set_of: SetOf) -> bool:
-    """Whether a network that remains has functions of that set, or it is not known."""
+    """Return True if a remaining network has functions of that set, or this is unknown."""
     assert model.network is not None
     todo = [placed_network(model.network, model.powers)]
     met = set(todo)
@@ -130,7 +130,8 @@ def _degree(model: Model, values: Values) -> int | None:
 
 
 def replaceable(left: AnyModel, right: AnyModel) -> bool:
-    """Whether both are networks that give the same functions by the theorems; False says nothing.
+    """Return True if both are networks that give the same functions by the theorems; False proves
+    nothing.
 
     >>> from disting.network import network_of
     >>> bridge = Model.from_network(network_of("R1 1 2; C1 1 3; R2 2 3; R3 2 0; C2 3 0"))
@@ -142,7 +143,7 @@ def replaceable(left: AnyModel, right: AnyModel) -> bool:
 
 
 def same_in_units(left: AnyModel, right: AnyModel) -> bool:
-    """Whether both are one machine in other units, those behind gears."""
+    """Return True if both are one machine in different units, those behind gears."""
     network, other = (m.network and placed_network(m.network, m.powers) for m in (left, right))
     return network is not None and other is not None and same_but_for_gears(network, other)
 
@@ -204,7 +205,9 @@ def _set_of(model: Model, order: int, low: Power, high: Power) -> Part | None:
 
 @lru_cache(maxsize=REMEMBERED)
 def _has_minor(network: Network, wanted: Part) -> bool:
-    """Whether the network, or a minor in series and parallel, is a part that gives all of a set."""
+    """Return True if the network, or a minor in series and parallel, is a part that gives all of a
+    set.
+    """
     port = network.inputs[0]
     elements = network.elements
     for count in range(MOST_LEFT_OUT + 1):

@@ -108,7 +108,7 @@ def network_ratios(network: Network) -> tuple[tuple[RationalFunction, ...], ...]
 
 
 def network_powers(ratios: Sequence[RationalFunction], network: Network) -> Powers:
-    """What the powers of v are of such functions of a network, those that are zero left out; raises
+    """Powers of v in such functions of a network, without those that are zero; raises
     InputError.
     """
     seen = [ratio for ratio in ratios if not ratio.num.is_zero()]

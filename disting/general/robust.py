@@ -47,7 +47,7 @@ ParameterValues = dict[int, Fraction]
 
 @dataclass(frozen=True, slots=True)
 class CaseSearch:
-    """What a search found, sections and other cases apart; `lead`: leading denominator
+    """Result of a search, sections and other cases separated; `lead`: leading denominator
     coefficient of the searched model.
     """
 
@@ -73,14 +73,16 @@ def find_equivalent(parted: CaseSearch, point: ParameterValues) -> tuple[float, 
 
 
 def searched_cases(parted: CaseSearch) -> int:
-    """How many sections and cases are looked at by `find_equivalent`: a case of more equations or
-    unknowns is not.
+    """Number of sections and cases that `find_equivalent` examines: it skips cases of more
+    equations or unknowns.
     """
     return len(parted.sections) + sum(_is_searched(parted, case) for case in parted.others)
 
 
 def has_no_equivalent(parted: CaseSearch, point: ParameterValues) -> bool:
-    """Whether no parameters near the point have an equivalent; False also where it is not seen."""
+    """Return True if no parameters near the point have an equivalent; False also where that is not
+    found.
+    """
     if any(not value_at(g, point) for g in parted.search.generic):
         return False
     if not all(any(value_at(g, point) < 0 for g in s.where) for s in parted.sections):

@@ -79,8 +79,8 @@ def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
 
 
 def cover(ring: Orthant, the_sections: list[Section]) -> bool:
-    """Whether every generic p lies in a section, whatever the signs of the irreducible factors
-    of their polynomials are.
+    """Return True if every generic p lies in a section, whatever the signs of the irreducible
+    factors of their polynomials are.
     """
     signed = [[ring.parts(g, odd=True) for g in s.where] for s in the_sections]
     factors: list[fmpz_mpoly] = []

@@ -51,8 +51,8 @@ def sign_on(grid: Grid) -> int:
 
 
 def is_empty(start: Box, axes: int) -> bool:
-    """Whether no point of the closed box solves all equations with all inequalities >= 0; False
-    also where it is not seen.
+    """Return True if no point of the closed box solves all equations with all inequalities >= 0;
+    False also where that is not found.
     """
     todo, seen = [start], 0
     while todo:
@@ -109,7 +109,7 @@ def root(start: Box) -> tuple[Fraction, Fraction] | None:
 
 
 def _changes(box: Box) -> bool:
-    """Whether the box is narrow and the equation has opposite signs at its ends."""
+    """Return True if the box is narrow and the equation has opposite signs at its ends."""
     return not box.equations or (
         box.depth[0] >= NARROW and box.equations[0][0][0] * box.equations[0][-1][0] < 0
     )

@@ -259,7 +259,7 @@ def _real_bounds(ring: Orthant, equation: fmpz_mpoly, at: int, degree: int) -> t
 
 
 def _free(vector: Vector) -> bool:
-    """Whether unknowns other than the root are free: infinitely many vectors."""
+    """Return True if unknowns other than the root are free: infinitely many vectors."""
     return sum(v is None for v in vector.values) > (vector.equation is not None)
 
 
@@ -287,7 +287,7 @@ def _levels(
 
 
 def _is(ring: Orthant, vector: Vector, at: int, positions: set[int]) -> bool:
-    """Whether a value is one of the p at these positions, at all roots of the equation."""
+    """Return True if a value is one of the p at these positions, at all roots of the equation."""
     value, equation = vector.values[at], vector.equation
     if value is None:
         return False
@@ -331,7 +331,7 @@ def _numbers(
 
 
 def _number_at(ring: Orthant, branch: _Branch, point: Point) -> int | None:
-    """How many vectors of a branch are admissible near a point; None at special ones."""
+    """Number of vectors of a branch that are admissible near a point; None at special ones."""
     case, vector = branch.case, branch.vector
     if branch.least == branch.most:
         return branch.least
@@ -352,7 +352,7 @@ def _value(polynomial: fmpz_mpoly, point: Point) -> int:
 
 
 def _exists(ring: Orthant, model: AnyModel, branch: _Branch, points: Sequence[Point]) -> bool:
-    """Whether a branch with free unknowns has admissible vectors for some p."""
+    """Return True if a branch with free unknowns has admissible vectors for some p."""
     if ring.domain is not Domain.POSITIVE:
         return ring.domain is Domain.COMPLEX or branch.vector.equation is None
     search = Search(ring, tuple(ring.unknowns))
@@ -373,8 +373,8 @@ def _as_exchanges(model: AnyModel, group: _Group, safety: int) -> OverDomains:
 
 
 def _by_points(model: AnyModel, domain: Domain, group: _Group, settings: Settings) -> Solutions:
-    """What exchanges show, and the numbers of vectors at random points, of which nothing follows
-    for others.
+    """Solutions from exchanges, and the numbers of vectors at random points, which prove nothing
+    for other points.
     """
     levels = {
         name: Level.LOCAL if len(group.orbit(at)) > 1 else Level.UNKNOWN

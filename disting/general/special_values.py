@@ -92,7 +92,7 @@ def _product(
 
 
 def _is_solved(factor: fmpz_mpoly, at: int) -> bool:
-    """Whether it is A x - B, or its negative, A and B sums of positive terms without x."""
+    """Return True if it is A x - B, or its negative, A and B sums of positive terms without x."""
     signs: dict[int, set[bool]] = {}
     for exponents, coefficient in factor.to_dict().items():
         signs.setdefault(int(exponents[at]), set()).add(coefficient > 0)
@@ -116,12 +116,12 @@ class SpecialValues:
 
     @property
     def is_same(self) -> bool:
-        """Whether each is known to give all that the other one gives."""
+        """True if each is known to give everything that the other one gives."""
         return bool(self.left_in_right and self.right_in_left)
 
     @property
     def is_known(self) -> bool:
-        """Whether one of them is known to give all that the other one gives."""
+        """True if one of them is known to give everything that the other one gives."""
         return bool(self.left_in_right or self.right_in_left)
 
     def in_short(self, left: str, right: str) -> str:
@@ -145,7 +145,7 @@ class SpecialValues:
 
 
 def special_values(left: AnyModel, right: AnyModel) -> SpecialValues:
-    """What two models of networks give for all positive values, special ones included.
+    """Functions that two models of networks give for all positive values, special ones included.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of

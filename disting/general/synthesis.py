@@ -26,11 +26,11 @@ FieldValues = dict[str, Any]
 
 
 class BranchShape(Protocol):
-    """What branches are shared among: those of one shape are alike."""
+    """Shape of a group of branches: branches of one shape are interchangeable."""
 
     @property
     def shape(self) -> tuple[object, ...]:
-        """What tells it from others."""
+        """Key of the shape."""
 
 
 class NoFormulas(Exception):
@@ -87,7 +87,7 @@ def _joined(form: str, trees: Iterable[Tree]) -> Tree:
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """How many terms a branch has, whether it has the constant and the pole at 0."""
+    """Share of a branch: its number of terms, and whether it has the constant and the pole at 0."""
 
     terms: int
     constant: bool

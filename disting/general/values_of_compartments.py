@@ -32,7 +32,7 @@ class Subtree:
 
     @property
     def count(self) -> int:
-        """How many they are together."""
+        """Total number of compartments."""
         return 1 + sum(h.count for h in self.inside)
 
     @property
@@ -114,7 +114,7 @@ def _flow(
     at: int,
     towards: int,
 ) -> Any:
-    """What is left of d_i without the flows to all neighbours but one, once these are found."""
+    """Part of d_i without the flows to all neighbours but one, once these are found."""
     left = sums.out[at]
     for i, j in flows:
         if i == at and j != towards:

@@ -111,7 +111,7 @@ def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) ->
 
 
 def _placed(model: AnyModel) -> tuple[Network, list[str]]:
-    """What is seen of a network without gears, and the ratios that are not known."""
+    """Network without gears as it is measured, and the unknown ratios."""
     plain = model.network and without_gears(model.network)
     if model.network is None or plain is None or plain.is_directed:
         raise NoFormulas("they are not made of parts that replace each other")

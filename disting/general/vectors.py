@@ -96,8 +96,8 @@ def count_vectors(
 
 
 def are_same(first: Vector, second: Vector) -> bool:
-    """Whether two cases have the same vectors: one equation, but for its sign, and values that are
-    equal at all its roots.
+    """Return True if two cases have the same vectors: one equation, except for its sign, and values
+    that are equal at all its roots.
 
     The equation h is irreducible, so what vanishes at one of its roots is divisible by it and
     vanishes at all of them.
@@ -112,8 +112,8 @@ def are_same(first: Vector, second: Vector) -> bool:
 
 
 def is_unique(ring: Orthant, vectors: Sequence[Vector], at: int, search: Search | None) -> bool:
-    """Whether an unknown is p in all cases; all of them are looked at, so cases that were left
-    out make it no less true.
+    """Return True if an unknown is p in all cases; all cases are checked, and omitted ones cannot
+    make this false.
     """
     p = RationalFunction(ring.generators[at], ring.number(1))
     return search is not None and all(x.values[at] == p for x in vectors)

@@ -1,5 +1,5 @@
-"""Which given models have an admissible equivalent in another one: all, none, or some; each with
-its proof.
+"""Existence of an admissible equivalent of the given models in another one: for all, none, or some;
+each with its proof.
 
 ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`,
 `intermediate_value`), or as many roots for all p as for one (`counts`). NEVER: no case is left
@@ -44,12 +44,12 @@ class Way:
 
     @property
     def never(self) -> bool:
-        """Whether no case is left."""
+        """True if no case remains."""
         return not self.parted.sections and not self.parted.others
 
     @property
     def closed(self) -> tuple[str, ...]:
-        """What would have to hold in cases that are closed, each once."""
+        """Contradictions in closed cases, each once."""
         return tuple(dict.fromkeys(self.parted.search.closed))
 
     def path(self) -> Path | None:
@@ -84,7 +84,7 @@ class Way:
             return None
 
     def lacking(self, values: Values) -> bool:
-        """Whether no point around this one has an equivalent, as far as is seen."""
+        """Return True if no point around this one has an equivalent, as far as found."""
         self.parted.search.ring.begin()
         try:
             return has_no_equivalent(self.parted, self._point(values))
@@ -106,7 +106,7 @@ def _first(
 
 
 def way(model: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THOROUGH) -> Way | None:
-    """What is known one way, or None if the search grew too large. Both models have the same
+    """Decide one direction, or return None if the search grew too large. Both models have the same
     degrees.
 
     Unknowns are solved for in several orders, until all cases are sections; else the order with

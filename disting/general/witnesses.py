@@ -82,7 +82,7 @@ def by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesse
 def by_inequalities(
     left: AnyModel, right: AnyModel, starts: int = STARTS
 ) -> Inequality | Witnesses | None:
-    """What inequalities that all values of one of them satisfy tell: no values of the other one do,
+    """Decide by inequalities that all values of one model satisfy: no values of the other one do,
     or some do not and some have an equivalent.
     """
     if not (isinstance(left, Model) and isinstance(right, Model)):
@@ -149,7 +149,7 @@ def witnesses_of(
 
 
 def solutions_at(model: AnyModel, other: AnyModel, point: PointText) -> int:
-    """How many complex equivalents there are, MANY or UNCOUNTED where that is not seen at once."""
+    """Number of complex equivalents, MANY or UNCOUNTED where that is not found at once."""
     if not (isinstance(model, Model) and isinstance(other, Model)):
         return UNCOUNTED
     goal = fibre_lists.goal_of(model, {name: Fraction(x) for name, x in point})

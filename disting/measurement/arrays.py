@@ -34,7 +34,7 @@ def frozen(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def same(left: NDArray[Any] | None, right: NDArray[Any] | None) -> bool:
-    """Whether both are missing, or equal bit by bit."""
+    """Return True if both are missing, or equal bit by bit."""
     if left is None or right is None:
         return left is right
     return left.shape == right.shape and left.tobytes() == right.tobytes()

@@ -1,4 +1,6 @@
-"""What a reader assumed because neither the file nor the caller states it, and what changes it."""
+"""Assumptions of a reader where neither the file nor the caller states something, and the options
+that change them.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace

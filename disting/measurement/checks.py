@@ -1,4 +1,4 @@
-"""What can be wrong with a measured frequency response: one small function per mistake.
+"""Checks of a measured frequency response: one small function per mistake.
 
 What makes the numbers useless raises InputError with cause and remedy. What is only suspicious
 gives a sentence: the data may be right, and a person has to look.

@@ -1,4 +1,4 @@
-"""What a column means: its role from the words of its header, its unit from what is stated there.
+"""Meaning of a column: its role from the words of its header, its unit from the same header.
 
 A unit stands in brackets behind the name, behind a stroke, a comma or "in", or is the last word:
 `f [Hz]`, `Gain (dB)`, `phi/°`, `Frequency in Hz`, `Freq_Hz`, `MagdB`.
@@ -23,7 +23,7 @@ from disting.measurement.units import (
 
 
 class Role(StrEnum):
-    """What a column holds."""
+    """Content of a column."""
 
     FREQUENCY = "frequency"
     REAL = "real part"
@@ -248,7 +248,7 @@ def _opening(text: str) -> int:
 
 
 def _is_unit(text: str) -> bool:
-    """Whether a text is a unit that needs no brackets to be known as one."""
+    """Return True if a text is a unit that is recognised without brackets."""
     is_known = omega_per(text) is not None or known_unit(text, (*PHASES, *LEVELS[1:])) is not None
     the_gain = gain(text) if "/" in text or "-1" in text or "⁻" in text else None
     return (is_known or the_gain is not None or in_ohm(text) > 0) and text != "*"
@@ -271,7 +271,7 @@ def _role(name: str) -> Role | None:
 
 
 def _role_of_unit(text: str) -> Role:
-    """What a column without a name, or of a name that says nothing, is by its unit."""
+    """Role by the unit, of a column without a name or with a name that gives no role."""
     level = gain(text)
     if omega_per(text) is not None and motion(text) is None:
         return Role.FREQUENCY

@@ -1,4 +1,4 @@
-"""Which columns of a table make up a frequency response."""
+"""Columns of a table that make up a frequency response."""
 
 import re
 import shlex
@@ -201,7 +201,7 @@ def _guess(table: Table, columns: Sequence[Column]) -> list[str]:
 
 
 def _is_grid(values: np.ndarray) -> bool:
-    """Whether numbers may be frequencies."""
+    """Return True if numbers may be frequencies."""
     steps = np.diff(values)
     return bool(np.all(values > 0) and (np.all(steps > 0) or np.all(steps < 0)))
 

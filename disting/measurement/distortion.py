@@ -1,4 +1,4 @@
-"""What a multisine's lines without excitation show: distortion by odd and even nonlinearities, and
+"""Distortion from a multisine's lines without excitation: by odd and even nonlinearities, and
 noise.
 
 A periodic input that excites some lines only leaves the others to what is not linear. Where all
@@ -68,8 +68,8 @@ class Distortion:
 
     @property
     def kinds(self) -> tuple[tuple[str, Real, NDArray[np.bool_]], ...]:
-        """What the lines show: in words, levels of all lines, shape (n,), and the lines that
-        show it, shape (n,).
+        """Kinds of distortion: name, levels of all lines, shape (n,), and the lines that show it,
+        shape (n,).
         """
         whole = np.ones(len(self.omega), dtype=bool)
         apart = (

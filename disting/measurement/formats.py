@@ -146,7 +146,7 @@ def _responses(file: Source) -> Mapping[str, Any]:
 
 
 def _is_matlab_record(file: Source, options: Options) -> bool:
-    """Whether there is a clock or a sampling rate, and nothing that is a frequency response."""
+    """Return True if there is a clock or a sampling rate, and no frequency response."""
     arrays = _variables(file)
     return bool(arrays.keys() & CLOCKS) and not (
         options.keys() & NAMED or holds_frequencies(arrays) or _responses(file)
@@ -188,7 +188,7 @@ def _text_series(file: Source, input: str | int, output: str | int, options: Opt
 
 
 def _is_text_record(file: Source, options: Options) -> bool:
-    """Whether there is a column of times and none of frequencies."""
+    """Return True if there is a column of times and none of frequencies."""
     if "columns" in options:
         return False
     headers = _table(file).headers

@@ -28,7 +28,7 @@ MOSTLY = 0.5  # share of the lines
 
 
 def is_impedance(_: Source, head: bytes) -> bool:
-    """Whether the first bytes are those of such an instrument."""
+    """Return True if the first bytes are those of such an instrument."""
     return head.startswith(HEADS)
 
 

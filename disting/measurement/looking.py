@@ -106,7 +106,7 @@ class Look(NotebookTable):
 
     @property
     def assumed(self) -> tuple[Assumption, ...]:
-        """What neither the file nor an option states."""
+        """Assumptions where neither the file nor an option states a value."""
         quantity = None
         if self.response is not None and not self.is_impedance:
             quantity = assumed_quantity(self.response)

@@ -62,7 +62,7 @@ class Variable:
 
 
 def is_version_5(content: bytes) -> bool:
-    """Whether a file begins like one of version 5 to 7."""
+    """Return True if a file begins like one of version 5 to 7."""
     return len(content) >= HEADER and content[126:128] in (b"IM", b"MI")
 
 
@@ -123,7 +123,7 @@ def _variable(body: memoryview, compressed: bool, order: str) -> Variable:
 
 
 def _count(head: Bytes, order: str) -> int:
-    """How many numbers the dimensions of an array of them make."""
+    """Number of elements of an array, from its dimensions."""
     return prod(max(int(n), 0) for n in _parts(head, order, 2)[1])
 
 

@@ -121,7 +121,7 @@ class Objects:
     order: str
 
     def properties(self, of: Reference) -> dict[str, Any]:
-        """What an object holds, by name; objects in it as `Reference`. Raises one of
+        """Properties of an object, by name; objects in it as `Reference`. Raises one of
         `mat5.DAMAGE`.
         """
         begins = struct.unpack_from(self.order + "8I", self.tables, 8)

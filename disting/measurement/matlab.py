@@ -342,7 +342,9 @@ def _check_chunks(array: Any, where: str) -> None:
 
 
 def _inflates_beyond(content: bytes, most: int) -> bool:
-    """Whether deflated bytes are more than `most`, without keeping them."""
+    """Return True if the deflated bytes expand to more than `most`, which is tested without keeping
+    them.
+    """
     packer, size = zlib.decompressobj(), 0
     while content and not packer.eof and size <= most:
         size += len(packer.decompress(content, PIECE))

@@ -9,7 +9,7 @@ from disting.model.chain import Sensor
 
 
 class _Shown(TypedDict, total=False):
-    """What the sensor shows, and its sign: -1 for a reversed sensor."""
+    """Sensor quantity, and its sign: -1 for a reversed sensor."""
 
     quantity: Sensor | str
     sign: int

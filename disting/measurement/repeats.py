@@ -48,7 +48,7 @@ SAME = 1e-6  # relative distance of two frequencies that count as one
 
 
 def find_outliers(values: Complex) -> Mask:
-    """Which of n measurements are none of the others at which lines, shape (n, n_f) as `values`."""
+    """Flag the outliers among n measurements at each line, shape (n, n_f) as `values`."""
     n, lines = values.shape
     if n < LEAST or not lines:
         return np.zeros((n, lines), dtype=np.bool_)
@@ -63,8 +63,8 @@ def find_outliers(values: Complex) -> Mask:
 def leave_out(
     values: Complex, names: Sequence[str], omega: Real, outliers: str
 ) -> tuple[Mask, tuple[str, ...], tuple[str, ...]]:
-    """What of n measurements is averaged, shape (n, n_f), and what is said of outliers among them:
-    notes and doubts. `outliers`: "keep" names them, "drop" leaves them out where at least two
+    """Select what is averaged of n measurements, shape (n, n_f), with notes and doubts about
+    outliers among them. `outliers`: "keep" names them, "drop" leaves them out where at least two
     others are left. Raises InputError for another choice.
     """
     if outliers not in CHOICES:
@@ -206,8 +206,8 @@ def _check_alike(first: FrequencyResponse, other: FrequencyResponse) -> None:
 
 
 def are_opposite(response: FrequencyResponse, other: FrequencyResponse) -> bool:
-    """Whether two responses of one machine have opposite signs: at most frequencies that they
-    share, the phase is reversed.
+    """Return True if two responses of one machine have opposite signs: at most frequencies that
+    they share, the phase is reversed.
 
     >>> from disting.measurement import from_arrays
     >>> one, other = (from_arrays(range(1, 9), [x * 1j, x] * 4) for x in (2, -2))

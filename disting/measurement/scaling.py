@@ -63,7 +63,7 @@ def in_omega(
 
 
 def factor(unit: str) -> float:
-    """What a frequency of 1 in a unit is in rad/s; raises InputError for another unit."""
+    """Factor from a unit of frequency to rad/s; raises InputError for another unit."""
     value = omega_per(unit)
     if value is None:
         raise InputError(
@@ -81,7 +81,7 @@ def taken_unit(omega: Real, values: Real, said: str = "") -> str:
 
 
 def is_round(values: Real) -> bool:
-    """Whether all numbers have `DIGITS` digits at most.
+    """Return True if all numbers have `DIGITS` digits at most.
 
     >>> is_round(np.arange(1, 251) * 0.1), is_round(np.arange(1, 251) * 0.2 * np.pi)
     (True, False)

@@ -38,7 +38,7 @@ def source(path: str | Path) -> Source:
 
 @dataclass(frozen=True, slots=True)
 class Allowance:
-    """What may be unpacked from one file, in all: `took` by name, as it is asked for."""
+    """Limit of what may be unpacked from one file in total: `took` by name, as it is requested."""
 
     origin: str
     took: dict[str, int] = field(default_factory=dict)

@@ -175,8 +175,8 @@ def rate_of(time: Real, origin: str) -> float:
 
 
 def _seconds(table: Table, at: int) -> float:
-    """What a time of 1 in the unit of a column is in seconds; raises InputError for a stated unit
-    that is not known.
+    """Factor from the unit of a time column to seconds; raises InputError for a stated unit that is
+    unknown.
     """
     unit = _time_unit(table.headers[at]) or "s"
     name = known_unit(unit, TIMES)
@@ -195,5 +195,5 @@ def _time_unit(header: str) -> str:
 
 
 def is_time(header: str) -> bool:
-    """Whether a column is the time."""
+    """Return True if a column is the time."""
     return re.match(r"(t|time|zeit|timestamp|zeitstempel)\b", header.lower()) is not None

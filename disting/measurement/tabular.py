@@ -136,9 +136,9 @@ def response_columns(table: Table, columns: Sequence[str] | None = None) -> tupl
 
 @dataclass(slots=True)
 class _Reading:
-    """How numbers become a response; what is assumed goes to `notes`, what looks wrong to
-    `doubts`, the columns that are used to `uses`. `guess`: nobody said what the columns are but
-    their headers.
+    """Conversion of numbers to a response; assumptions are added to `notes`, suspicious findings to
+    `doubts`, the used columns to `uses`. `guess`: nobody said what the columns are but their
+    headers.
     """
 
     table: Table
@@ -205,7 +205,7 @@ class _Reading:
         return self.table.column(at) * (0.01 if level_of(self.roles[at]) == "%" else 1.0)
 
     def _ohms(self, at: int) -> float:
-        """What a number of a column is in ohm, where its unit is one of impedance; else 1."""
+        """Factor from a column's unit to ohm, where it is a unit of impedance; else 1."""
         stated = self.magnitude_unit or _stated(self.table.headers[at])
         unit = gain(str(stated))
         return unit.ohms if unit and unit.ohms else 1.0
@@ -382,7 +382,7 @@ def _stated(header: str) -> str:
 
 
 def _written(comments: Sequence[str]) -> dict[str, str]:
-    """What `files.csv_text` wrote into comment lines; empty for a file of another origin."""
+    """Fields that `files.csv_text` wrote into comment lines; empty for a file of another origin."""
     pairs = [comment.split(": ", 1) for comment in comments if ": " in comment]
     plain = {name: ESCAPED.sub(lambda code: chr(int(code[1], 16)), text) for name, text in pairs}
     return plain if MARK in comments else {}

@@ -108,8 +108,8 @@ def _plain_numbers(fields: list[str], decimal: str) -> list[float]:
 
 def _dialect(lines: list[str], origin: str) -> tuple[str, str]:
     def readable(dialect: tuple[str, str]) -> float:
-        """How many of the last lines are numbers only, more than one, when read so; between blanks
-        a tab counts against it.
+        """Number of the last lines that consist of numbers only, more than one, under this dialect;
+        between blanks a tab counts against it.
 
         A line of a file with tabs that lacks a cell must not make it one with blanks, where two
         tabs are as good as one.
@@ -142,7 +142,7 @@ def _fields(line: str, delimiter: str) -> list[str]:
 
 
 def _count(fields: list[str], decimal: str) -> int:
-    """How many fields are numbers."""
+    """Number of fields that are numbers."""
     return sum(NUMBER.fullmatch(_with_point(field, decimal)) is not None for field in fields)
 
 
@@ -205,8 +205,8 @@ def _headers(
 
 
 def _is_header(fields: list[str], delimited: bool) -> bool:
-    """Whether the parts of a comment name columns: no numbers, and the delimiter of the data or
-    the word frequency.
+    """Return True if the parts of a comment name columns: no numbers, and the delimiter of the data
+    or the word frequency.
     """
     return not _count(fields, ".") and (
         delimited or any(meaning(field).role is Role.FREQUENCY for field in fields)

@@ -129,8 +129,8 @@ def known_unit(text: str, kind: Iterable[str]) -> str | None:
 
 
 def omega_per(text: str) -> float | None:
-    """What a frequency of 1 in a unit is in rad/s, with a power of ten before it; None where the
-    unit is not known.
+    """Factor from a unit of frequency to rad/s, with a power of ten before it; None for an unknown
+    unit.
 
     >>> omega_per("10^3 rad/s"), omega_per("furlong")
     (1000.0, None)

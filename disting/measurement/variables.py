@@ -99,12 +99,12 @@ def from_variables(
 
 
 def holds_response(arrays: Arrays) -> bool:
-    """Whether there are variables with the usual names of frequencies and of a response."""
+    """Return True if there are variables with the usual names of frequencies and of a response."""
     return holds_frequencies(arrays) and any(name in arrays for name in RESPONSE_NAMES)
 
 
 def holds_frequencies(arrays: Arrays) -> bool:
-    """Whether there is a variable with a usual name of frequencies."""
+    """Return True if there is a variable with a usual name of frequencies."""
     return any(name in arrays for name in (*HERTZ_NAMES, *OMEGA_NAMES))
 
 

@@ -142,7 +142,7 @@ def _refuse_silent(*powers: np.ndarray[Any, Any]) -> None:
 
 
 def _repeats(u: Real, segment: int) -> bool:
-    """Whether an input repeats itself within a few segments: its lines stand apart then, and no
+    """Return True if an input repeats within a few segments: then its lines are separate, and no
     window smooths them as it does noise.
     """
     try:
@@ -202,7 +202,7 @@ def _cross_spectrum(a: Real, b: Real, rate: float, segment: int) -> Complex:
 
 
 def _left_out(grid: Real, good: np.ndarray[tuple[int], np.dtype[np.bool_]], level: float) -> str:
-    """How many lines tell nothing, and where the others are."""
+    """Sentence on the number of lines without information, and on the range of the others."""
     if not good.any():
         return f"all {len(grid)} lines left out: their coherence is below {level:.2g}"
     most = np.quantile(grid[good], [0.05, 0.95])

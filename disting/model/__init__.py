@@ -1,1 +1,1 @@
-"""What a chain model is and which there are; what every family of models offers (`protocol`)."""
+"""Chain models and their enumeration; interface of every family of models (`protocol`)."""

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 
 
 class Sort(StrEnum):
-    """What a model is of; its elements are all of one sort."""
+    """Physical domain of a model; its elements are all of one domain."""
 
     MACHINE = "machine"
     CIRCUIT = "circuit"
@@ -77,7 +77,7 @@ class Constraint:
     words: str = ""
 
     def refusal(self, i: Indices) -> str:
-        """What is said of a chain that breaks it: in words, then in the paper's symbols."""
+        """Message about a chain that violates it: in words, then in the paper's symbols."""
         said = self.words.format(**i._asdict(), low=i.gap + 1, highest_gap=i.n_masses - 1)
         return (
             f"{said} (constraint ({self.equation}) {self.text} is violated by N_B={i.n_masses},"
@@ -210,7 +210,7 @@ class GroundDamper(NamedTuple):
 
 
 class Known(NamedTuple):
-    """What adds to A(s)[at, at], with that power of s, something whose size is known: no parameter.
+    """Known term of A(s)[at, at], with that power of s: its size is known and no parameter.
 
     `kind` is its word, such as inertia.
     """
@@ -334,9 +334,9 @@ LEGEND = (
 
 @dataclass(frozen=True, slots=True)
 class Premise:
-    """What a name such as 3:4 leaves to be said: dampers beside the springs, the sensor quantity,
-    and how else the machine is measured. A network says its dampers and its quantity itself: of it
-    both are None.
+    """Premise that a name such as 3:4 does not state: dampers in parallel with the springs, the
+    sensor quantity, and further changes of the measurement. A network says its dampers and its
+    quantity itself: of it both are None.
 
     >>> str(Premise(True, Sensor.ACCELERATION, ("as it is", "sensor 3, mass 2 locked")))
     'damped, acceleration, measured as it is and with sensor 3, mass 2 locked'
@@ -482,7 +482,7 @@ class Chain(NotebookPicture):
 
     @property
     def written_fields(self) -> dict[str, Any]:
-        """What its text in keys and files is made of: `gap_damper` only where there is one."""
+        """Fields of its text in keys and files: `gap_damper` only where there is one."""
         names = [f.name for f in fields(self) if f.name != "gap_damper" or self.gap_damper]
         return {name: getattr(self, name) for name in names}
 
@@ -500,7 +500,7 @@ class Chain(NotebookPicture):
 
     @property
     def order(self) -> int:
-        """How often what the sensor shows is differentiated."""
+        """Number of time derivatives of the position that the sensor measures."""
         return self.sensor.order
 
     @property

@@ -19,7 +19,7 @@ from disting.quantities import Sensor, sensor_of_model
 
 @cache  # asked for at every look-up of a pair
 def count(n: int) -> int:
-    """How many models have n masses.
+    """Number of models with n masses.
 
     >>> [count(n) for n in range(1, 9)]
     [1, 3, 11, 29, 73, 157, 314, 574]
@@ -28,7 +28,7 @@ def count(n: int) -> int:
 
 
 def before(indices: Indices) -> int:
-    """How many models of as many masses stand before this one, which is admissible.
+    """Number of models of the same size that precede this one, which is admissible.
 
     >>> before(Indices(3, 0, 0, 2, 0, 2))
     3

@@ -1,4 +1,4 @@
-"""What may be done at a mass to measure a machine in another way: the one table of kinds.
+"""Changes at a mass by which a machine can be measured in another way: the one table of kinds.
 
 A kind either moves a port, or holds the mass still, or adds size * s^power to A(s)[i, i]: a known
 inertia J s^2, a known brake c s, a known spring to the ground k. Nothing else is known of it where
@@ -57,17 +57,17 @@ class Kind:
 
     @property
     def takes_size(self) -> bool:
-        """Whether it adds something of a known size."""
+        """True if it adds an element of a known size."""
         return self.power is not None
 
     @property
     def holds(self) -> bool:
-        """Whether it holds the mass still."""
+        """True if it locks the mass."""
         return not (self.is_port or self.takes_size)
 
     @property
     def example(self) -> str:
-        """How a command says it."""
+        """Notation on the command line."""
         return f"{self.name}=1:0.5" if self.takes_size else f"{self.name}=2"
 
 

@@ -1,5 +1,5 @@
-"""What remains of a structure when elements tend to zero or grow without bound: its minors, as of a
-graph of which edges are deleted and contracted.
+"""Minors of a structure: the structures that remain when elements tend to zero or grow without
+bound, as of a graph of which edges are deleted and contracted.
 
 `places` takes masses of the `whole` to nodes of the `part`, and 0, the ground, to 0. Masses that it
 leaves out move alone; those at 0 are at rest; those at one other node follow one another in a row.
@@ -38,7 +38,7 @@ Joint = frozenset[int]
 
 
 def is_minor(part: Structure, whole: Structure, places: Places) -> bool:
-    """Whether these places make the part of the whole; ports are not looked at."""
+    """Return True if these places make the part a minor of the whole; ports are not checked."""
     nodes, kept = range(part.n_masses + 1), range(whole.n_masses + 1)
     named = set(places) <= set(kept) and set(places.values()) <= set(nodes)
     if not named or places.get(0) != 0 or part.lag > whole.lag or part.dead_time > whole.dead_time:
@@ -145,7 +145,7 @@ class _Search:
         yield 0
 
     def _is_hopeful(self, places: Places, at: int) -> bool:
-        """Whether there are masses enough for the nodes that have none, and the node of the mass
+        """Return True if enough masses remain for the nodes without one, and the node of the mass
         before is complete.
         """
         lacking = self.part.n_masses - len(set(places.values()) - {0})
@@ -175,7 +175,7 @@ def _joints(structure: Structure) -> frozenset[Joint]:
 
 
 def _is_run(whole: Structure, masses: list[int]) -> bool:
-    """Whether there are such masses, and a joint between each and the next."""
+    """Return True if these masses exist, with a joint between each and the next."""
     steps = (Joint(step) for step in pairwise(sorted(masses)))
     return bool(masses) and all(step in _joints(whole) for step in steps)
 

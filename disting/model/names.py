@@ -33,8 +33,7 @@ LONGEST = 60  # characters of a text that is looked at for what it may mean
 
 
 def is_too_long(text: str) -> bool:
-    """Whether the text, or the power of ten that it is written with, is too large to be computed
-    with exactly.
+    """Return True if the text, or its power of ten, is too large for exact computation.
 
     >>> is_too_long("1e-99"), is_too_long("1e999999999"), is_too_long("1" * 100)
     (False, True, True)
@@ -47,7 +46,7 @@ def is_too_long(text: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Name:
-    """What a name says: `masses`, 0 where it is left to what is known; `extras` such as +b2+lag."""
+    """Parts of a name: `masses`, 0 where the number is to be inferred; `extras` such as +b2+lag."""
 
     masses: int
     number: int
@@ -59,7 +58,7 @@ class Name:
 
     @property
     def is_plain(self) -> bool:
-        """Whether it is a model of the numbered list itself."""
+        """True if it is a model of the numbered list itself."""
         return not self.extras
 
     def chain(self, family: Family) -> Chain:
@@ -68,7 +67,7 @@ class Name:
 
 
 def read(text: str) -> Name:
-    """What a text names; raises InputError, which says what may have been meant.
+    """Parse a name; raises InputError with a suggestion.
 
     >>> read("3:1+b2+lag"), read("A4").masses
     (Name(masses=3, number=1, extras='+b2+lag'), 0)
@@ -188,14 +187,14 @@ def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None
 
 
 def extras_of(chain: Chain) -> str:
-    """What stands behind the number: +b1+lag."""
+    """Part of the name after the number: +b1+lag."""
     words = [Damper(chain.gap).parameter] if chain.gap_damper else []
     words += [*(f"b{i}" for i in chain.ground_dampers), *(["lag"] if chain.lag else [])]
     return "".join(f"+{word}" for word in [*words, *(["delay"] if chain.dead_time else [])])
 
 
 def damping_option(damped: bool) -> str:
-    """How a command line says it."""
+    """Option of the command line for it."""
     return "--damped" if damped else "--undamped"
 
 
@@ -240,8 +239,8 @@ def _word(word: str) -> str:
 
 
 def names_of(left: Chain, right: Chain) -> tuple[str, str]:
-    """What two chains are called beside each other: by their names, those that have one name, of
-    which one is damped, with damping and quantity.
+    """Names of two chains in one context: their plain names or, if these are equal but the damping
+    differs, with damping and quantity.
 
     >>> names_of(Chain(9), Chain(9, damped=False))
     ('9:1 (damped, acceleration)', '9:1 (undamped, acceleration)')

@@ -1,4 +1,4 @@
-"""How objects show themselves: in a line on a prompt, and in a notebook as what a room above draws.
+"""Display of objects: a line at a prompt, and in a notebook the drawing of a package above.
 
 A line is made where the object is. A picture, a table of a notebook or a plot needs what stands
 above (`disting.report`), which the rooms below must not import, whether at the top of a module or
@@ -55,7 +55,7 @@ class Presenter(Protocol):
 
 
 class Presentation:
-    """What a room above knows how to draw."""
+    """Drawing functions that a package above provides."""
 
     __slots__ = ()
 
@@ -66,7 +66,7 @@ class Presentation:
 
 
 class NotebookTable(Presentation):
-    """What a notebook shows as a table."""
+    """Object that a notebook shows as a table."""
 
     __slots__ = ()
 
@@ -75,7 +75,7 @@ class NotebookTable(Presentation):
 
 
 class NotebookPicture(Presentation):
-    """What a notebook shows as a picture."""
+    """Object that a notebook shows as a picture."""
 
     __slots__ = ()
 

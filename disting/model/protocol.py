@@ -1,5 +1,5 @@
-"""What every family of models offers to what is general: samples, profiles and comparisons ask
-nothing else of a model.
+"""Interface of every family of models: samples, profiles and comparisons use nothing else of a
+model.
 
 The behaviour of a model is its transfer functions, one or several, as they depend on the
 parameters; a family says what they are at a point modulo a prime, how large the polynomials behind
@@ -34,7 +34,7 @@ class Model(Protocol):
 
     @property
     def dead_time(self) -> bool:
-        """Whether all transfer functions have a factor exp(-Td s), which `quotients` leave out."""
+        """True if all transfer functions have a factor exp(-Td s), which `quotients` omit."""
 
     @property
     def n_states(self) -> int:
@@ -50,7 +50,9 @@ class Model(Protocol):
 
     @property
     def is_numbered(self) -> bool:
-        """Whether invariants carry the number of their transfer function, as of several."""
+        """True if invariants carry the number of their transfer function, where there are
+        several.
+        """
 
     @property
     def lost_bits(self) -> int:

@@ -1,6 +1,5 @@
-"""What is asked of models, and answered: over which parameter values, with which settings, by which
-relation; questions beyond conditions 1 to 9 are answered by a pure function, and the answers kept
-as text by whoever keeps them.
+"""Questions on models and their answers: parameter domain, settings, relation; questions beyond
+conditions 1 to 9 are answered by a pure function, and the caller caches the answers as text.
 """
 
 import json
@@ -25,7 +24,7 @@ class Domain(StrEnum):
 
 
 class Relation(StrEnum):
-    """What is known of a pair over a domain of parameters.
+    """Relation of a pair over a domain of parameters.
 
     INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other.
     DISTINGUISHABLE: those of one of them, at least, have none; the verdict's inclusion and its two

@@ -55,7 +55,7 @@ class Row:
 
     @property
     def name(self) -> str:
-        """Which row of a chain it is: "grounded" or "free"."""
+        """Name of the row of a chain: "grounded" or "free"."""
         return GROUNDED if self.grounded else FREE
 
     @property
@@ -75,7 +75,7 @@ class Row:
 
     @property
     def is_whole(self) -> bool:
-        """Whether it is all of a chain without a gap."""
+        """True if it is all of a chain without a gap."""
         return not self.grounded and self.before == 0
 
     @property
@@ -85,7 +85,9 @@ class Row:
 
     @property
     def relative_degree(self) -> int:
-        """How fast the receptance falls: as s to the power minus this, for s to infinity."""
+        """Relative degree of the receptance: it falls as s to the power minus this, for s to
+        infinity.
+        """
         return 2 + self.distance * (1 if self.damped else 2)
 
     @property

@@ -32,8 +32,8 @@ class Branch:
 
 
 def branches(network: Network) -> Branch | None:
-    """What is seen of a one-port, as branches in series and parallel in no order; None of what is
-    not made of such. Equal branches give equal transfer functions, but for the sign of the sensor
+    """One-port as measured, as branches in series and parallel in no order; None if it is not
+    series-parallel. Equal branches give equal transfer functions, but for the sign of the sensor
     and its derivative, if values are exchanged.
 
     >>> from disting.network import network_of
@@ -70,7 +70,7 @@ def remainder(part: Network, whole: Network) -> tuple[Names, Names] | None:
 
 @lru_cache(maxsize=REMEMBERED)
 def _rests(whole: Network, size: int) -> dict[Branch, tuple[Names, Names]]:
-    """How to come to each one-port of so many elements."""
+    """Construction of each one-port of this number of elements."""
     # the last ones are taken away first
     elements, entries = whole.elements[::-1], dict[Branch, tuple[Names, Names]]()
     less = len(elements) - size

@@ -1,4 +1,5 @@
-"""Whether all transfer functions of one network are ones of another one, special values included.
+"""Inclusion of the transfer functions of one network in those of another one, special values
+included.
 
 THEOREM. A part of two kinds in series and parallel gives, for all positive values, exactly the
 union of K(m, c, z) for least <= m <= most, whole sets: one element m = 0; in series c, z are those
@@ -30,8 +31,8 @@ TWO = 2  # kinds of elements
 
 
 def within(inner: Network, outer: Network) -> bool | None:
-    """Whether every transfer function of one network for positive values, special ones included, is
-    one of the other network; None where that is not known.
+    """Decide whether every transfer function of one network for positive values, special ones
+    included, is one of the other network; None where that is unknown.
 
     >>> from disting.network.notation import network_of
     >>> foster, cauer = network_of("p(R1,C1)-p(R2,C2)"), network_of("p(C1,R1-p(C2,R2))")
@@ -60,7 +61,9 @@ def within(inner: Network, outer: Network) -> bool | None:
 
 
 def _gives_no_more(part: Part, other: Part) -> bool:
-    """Whether all that a part gives is given by another one, as far as the theorem tells."""
+    """Return True if another part gives everything that a part gives, as far as the theorem
+    decides.
+    """
     if (part.form, part.single, len(part.others)) != (other.form, other.single, len(other.others)):
         return False
     terms, wanted = dict(part.terms), dict(other.terms)

@@ -70,7 +70,7 @@ def transfer_functions(
 
 
 def _loose(network: Network) -> str:
-    """What has nothing that holds it: nodes whose gears would have to."""
+    """Message about nodes that are not held: only gears could hold them."""
     plain = (replace(e, ratio="") for e in network.elements)
     roots = parts((0, *network.nodes), (edge for e in plain for edge in edges(e)))
     node = next((i for i in network.nodes if roots[i]), None)

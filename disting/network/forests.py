@@ -1,5 +1,5 @@
-"""Which powers of s occur in the transfer function of a network, and how many terms its
-coefficients have, exactly and without writing them out.
+"""Powers of s in the transfer function of a network, and numbers of terms of its coefficients,
+exactly and without expanding them.
 
 Every coefficient is a sum of products of values, one for each tree (D) or each forest (N), for
 flows too (all minors theorem, Chaiken 1982). No two are made of the same values, so they do not
@@ -103,7 +103,7 @@ def _without(states: Counter[Partition], node: int) -> Counter[Partition]:
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """How many terms the coefficients of s^0, s^1, .. of both sides have, where none cancel, and
+    """Numbers of terms of the coefficients of s^0, s^1, .. of both sides, where none cancel, and
     the largest degree of a term in the values; `size`: the largest sum of the sizes of the numbers
     of a coefficient's terms, which are 1 without known ratios, and `mean` their mean in the leading
     one of D; `free`: the power of s whose coefficient in N, and in D, is a number (None where none

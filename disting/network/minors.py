@@ -1,5 +1,5 @@
-"""What remains of a network when elements tend to zero or grow without bound: its minors, as of a
-graph of which edges are deleted and contracted.
+"""Minors of a network: the networks that remain when elements tend to zero or grow without bound,
+as of a graph of which edges are deleted and contracted.
 
 `places` takes nodes of the `whole` to nodes of the `part`, and 0, the ground, to 0. Every element
 of the part is met by an element of the whole of its kind, no two by the same one, with its ends
@@ -43,7 +43,7 @@ TRIED = 20_000  # places of a node, in all
 
 
 def is_minor(part: Network, whole: Network, places: Places) -> bool:
-    """Whether these places make the part of the whole.
+    """Return True if these places make the part a minor of the whole.
 
     >>> from disting.network import network_of
     >>> is_minor(network_of("R0-C1"), network_of("R0-p(C1,R1)"), {0: 0, 1: 1, 2: 2})
@@ -116,8 +116,8 @@ def _port_places(part: Network, whole: Network) -> Iterator[dict[int, int]]:
 
 
 def _has_ports(part: Network, whole: Network, places: Places) -> bool:
-    """Whether ports lie at those of the part, with an even number of exchanges on every way from an
-    input to an output.
+    """Return True if ports lie at those of the part, with an even number of exchanges on every path
+    from an input to an output.
     """
     signs = []
     for mine, port in zip(whole.ports, part.ports, strict=True):
@@ -176,8 +176,8 @@ def _meets(part: Network, whole: Network, places: Places) -> dict[str, Element] 
 
 
 def _agree(e: Element, mine: Element, named: dict[str, str]) -> bool:
-    """Whether a ratio or an exponent of the whole, which is one number, can be that of the part;
-    `named` keeps what they are.
+    """Return True if a ratio or an exponent of the whole, which is one number, can be that of the
+    part; `named` records the assignment.
     """
     wanted = {mine.ratio: e.ratio} if e.known_ratio is None else {}
     if mine.exponent:
@@ -186,15 +186,15 @@ def _agree(e: Element, mine: Element, named: dict[str, str]) -> bool:
 
 
 def _mark(e: Element, places: Places) -> tuple[object, ...]:
-    """What two elements share that can be one another's: kind, ends, whether there is a ratio."""
+    """Key that elements must share to be matched: kind, ends, whether there is a ratio."""
     at = tuple(places[i] for i in e.nodes)
     plain = not e.ratio and e.letter != "a"
     return e.letter, tuple(sorted(at)) if plain else at, e.known_ratio
 
 
 def _is_connected(part: Network, whole: Network, places: Places) -> bool:
-    """Whether the nodes at each place are one body; a compartment is alone, but for those outside,
-    which are left alone.
+    """Return True if the nodes at each place are one body; a compartment is alone, except those
+    outside, which are not checked.
     """
     if whole.is_directed:
         alone = Counter(at for at in places.values() if at)

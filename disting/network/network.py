@@ -100,7 +100,7 @@ class Element:
 
     @property
     def kind(self) -> Kind:
-        """What it is."""
+        """Kind of the element."""
         return KINDS[self.letter]
 
     @property
@@ -209,7 +209,7 @@ def _problems_of_element(e: Element) -> Iterator[str]:
 
 
 def _is_name(text: str) -> bool:
-    """Whether it can name a value: s is the frequency variable."""
+    """Return True if the text can name a value: s is the frequency variable."""
     return text.isidentifier() and text.isascii() and text != "s"
 
 
@@ -434,12 +434,12 @@ class Network(NotebookPicture):
 
     @property
     def halves(self) -> bool:
-        """Whether half powers of s occur: those of Warburg elements."""
+        """True if half powers of s occur: those of Warburg elements."""
         return any(e.kind.halves % 2 for e in self.elements)
 
     @property
     def is_directed(self) -> bool:
-        """Whether elements work in one direction: flows."""
+        """True if elements work in one direction: flows."""
         return self.sort is Sort.COMPARTMENTS
 
     @property
@@ -489,8 +489,8 @@ class Network(NotebookPicture):
 
     @property
     def grounded(self) -> "Network":
-        """What is seen, with one node of every part that floats as its ground; differences of
-        potentials do not change by it. Nodes are numbered anew from 1.
+        """Measurable part, with one node of every floating part as its ground; differences of
+        potentials are unchanged by it. Nodes are numbered anew from 1.
 
         What is not seen is contracted: of reciprocal networks no current flows in it, or none that
         a port sees. Compartments that are not seen are the outside.
@@ -543,7 +543,9 @@ def _unchecked(
     outputs: tuple[Port, ...],
     like: Network,
 ) -> Network:
-    """What is left of a network, which can be a port without any element or without a way."""
+    """Remainder of a network, which can be a port without any element or without a path; not
+    validated.
+    """
     made = object.__new__(Network)
     for name, value in (
         ("elements", elements),

@@ -55,7 +55,7 @@ REMEMBERED = 4096  # networks
 Power = tuple[int, str]
 """Of s: 2 r, and the exponent of a constant phase element, which is added to r."""
 Count = tuple[tuple[tuple[Power, Power], int], ...]
-"""How many terms of which two kinds, in order."""
+"""Number of terms and their two kinds, in order."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -79,7 +79,7 @@ class Part:
 
     @property
     def generic(self) -> "Part":
-        """What it is but for special values."""
+        """Generic part, without special values."""
         return replace(self, others=tuple(sorted(p.generic for p in self.others)), spare=())
 
 
@@ -93,8 +93,8 @@ class NormalForm:
 
 @lru_cache(maxsize=REMEMBERED)
 def normal_form(network: Network) -> NormalForm | None:
-    """What remains when parts and hanging trees are named by what they can be; None of a network
-    with gears.
+    """Normal form in which parts and hanging trees are named by the functions they can have; None
+    for a network with gears.
     """
     if network.is_directed:
         return _of_compartments(network)
@@ -191,6 +191,6 @@ def _of_compartments(network: Network) -> NormalForm:
 
 
 def _hangs(at: int, flows: set[tuple[int, int]]) -> bool:
-    """Whether it has flows to and from one compartment only."""
+    """Return True if it has flows to and from one compartment only."""
     out, back = {j for i, j in flows if i == at}, {i for i, j in flows if j == at}
     return len(out) == 1 and out == back

@@ -1,4 +1,4 @@
-"""Which outflows of compartments tell the same: where the leaks are hardly matters.
+"""Outflows of compartments that give the same functions: the position of the leaks hardly matters.
 
 Let M be the matrix of the flows, x' = M x + b u, y = c x, flows off its diagonal. What leaves the
 compartments is -1^T M, and W M W^-1 with a diagonal W > 0 has the same flows in the graph, other

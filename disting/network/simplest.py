@@ -77,7 +77,7 @@ def network_text(
 
 
 def same_drawing(network: Network, other: Network) -> bool:
-    """Whether they are one network in other numbers: no part is replaced.
+    """Return True if they are one network with other numbers: no part is replaced.
 
     >>> from disting.network.notation import network_of
     >>> series, parallel = network_of("R1-p(R2,C1)"), network_of("p(R1,R2-C1)")
@@ -88,7 +88,7 @@ def same_drawing(network: Network, other: Network) -> bool:
 
 
 def same_but_for_gears(network: Network, other: Network) -> bool:
-    """Whether they are one machine without their gears, of which one at least has some (see
+    """Return True if they are one machine without their gears, and at least one has gears (see
     `disting.network.gears`).
 
     >>> from disting.network.notation import network_of
@@ -203,7 +203,7 @@ class _Drawing:
         return self.free - 1
 
     def joint(self, label: object, a: int, b: int) -> str:
-        """What an edge of a normal form is, as text."""
+        """Text of an edge of a normal form."""
         if isinstance(label, Part):
             return self.part(label, a, b)
         self.add("a", a, b)

@@ -1,1 +1,1 @@
-"""What further measuring would show: its power against a rival, and which experiment is next."""
+"""Prediction of further measurements: power against a rival, and choice of the next experiment."""

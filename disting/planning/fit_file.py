@@ -1,4 +1,4 @@
-"""What the file of a fit names: what is selected, its rivals, and how it was measured.
+"""Content of the file of a fit: the selected structure, its rivals, and the measurement.
 
 Rivals are the structures that the data do not exclude and those of which it is not known whether
 they behave the same. What contains one of them is no rival: no experiment excludes it if the
@@ -98,7 +98,7 @@ class FitRecord:
 
 
 def named_by(path: Path) -> FitRecord:
-    """What a JSON file of `disting fit` names; raises InputError."""
+    """Content of a JSON file of `disting fit`; raises InputError."""
     plain = read_json(path, FIT_FILE)
     refuse_open_quantity(plain, path)
     if not isinstance(plain, dict) or not isinstance(plain.get("selected"), dict):
@@ -259,7 +259,7 @@ class LeftNetwork:
 
 @dataclass(frozen=True, slots=True)
 class NamedNetworks:
-    """What a plan needs: the selected network (`model`) with its values, `rivals` with theirs, the
+    """Input of a plan: the selected network (`model`) with its values, `rivals` with theirs, the
     `same` by name with the reason, `larger` ones and which of them are `determined` as in
     `FitRecord`; the typical `scatter` of the `lines` from `low` to `high` [Hz].
     """
@@ -278,7 +278,7 @@ class NamedNetworks:
 
 
 def is_of_networks(path: Path) -> bool:
-    """Whether a JSON file is that of a fit of networks; raises InputError."""
+    """Return True if a JSON file is that of a fit of networks; raises InputError."""
     plain = read_json(path, FIT_FILE)
     return isinstance(plain, dict) and plain.get("format") == Format.NETWORK_FIT
 
@@ -291,7 +291,7 @@ def left_by(path: Path) -> tuple[LeftNetwork, ...]:
 
 
 def networks_named_by(path: Path) -> NamedNetworks:
-    """What the file names; raises InputError where no network explains the data."""
+    """Content of the file; raises InputError where no network explains the data."""
     plain = _read_plain(path)
     first, *others = _left_networks(plain, path)
     try:

@@ -1,4 +1,4 @@
-"""What a further experiment would show on the structures that a fit left, each at its values.
+"""Predicted result of a further experiment on the structures that a fit left, each at its values.
 
 The experiment gives the responses G_A, of the one that is taken for true, and G_B on lines that
 scatter by rho in ln |G| and in arg G. With r_k = |G_B/G_A - 1|_k / rho_k
@@ -94,7 +94,9 @@ class Stood:
         return Reason.NOISE if self.rule(a, b) else Reason.OPEN
 
     def rule(self, a: int, b: int) -> str:
-        """What tells two structures of different classes apart now; "" where nothing does."""
+        """Rule by which two structures of different classes are distinguished now; "" where there
+        is none.
+        """
         return self.rules[self._classes(a, b)]
 
     def _classes(self, a: int, b: int) -> tuple[int, int]:
@@ -173,7 +175,7 @@ class Step:
 
     @property
     def is_motion(self) -> bool:
-        """Whether the one moves and the other does not."""
+        """True if one of them moves and the other does not."""
         return self.noncentrality == inf
 
 
@@ -208,7 +210,7 @@ def response_under(chain: Chain, values: Parameters, item: Item, bench: Bench) -
 
 
 def step(values: Complex | None, other: Complex | None, bench: Bench) -> Step:
-    """How far another response is from the one that is taken for true."""
+    """Distance of another response from the one that is assumed to be true."""
     if values is None or other is None:
         return STILL if values is other else MOVES
     apart = np.abs(other / values - 1) / bench.rho
@@ -229,7 +231,7 @@ class Predictions:
     costs: Costs
 
     def items(self, structure: int) -> tuple[Item, ...]:
-        """What is worth doing if it is this structure, by kind and mass."""
+        """Items that are useful if this structure is true, by kind and mass."""
         chain = self.left[structure].chain
         every = _menu(chain, self.costs)
         return tuple(i for i in every if i.is_worth(gain(chain, i) or Gain.NEW))

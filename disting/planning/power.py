@@ -1,5 +1,5 @@
-"""How much measuring tells two structures apart: power of the test of `rival`, and the effort for
-more of it.
+"""Amount of measuring that distinguishes two structures: power of the test of `rival`, and the
+effort for more of it.
 
 The test excludes the rival at the level 1 % if T exceeds the quantile c of chi2 with s degrees of
 freedom; with the model true it does so with the probability (the power)
@@ -155,7 +155,7 @@ def _found(
 
 
 class Answer(StrEnum):
-    """Whether measuring more helps."""
+    """Use of more measurements."""
 
     ENOUGH = "enough"
     MORE = "more"
@@ -174,8 +174,8 @@ def power(noncentrality: float, surplus: int = 1, level: float = LEVEL) -> float
 
 @dataclass(frozen=True, eq=False)
 class Plan(NotebookTable):
-    """What is planned for one rival; `rival` is None where the verdict makes a fit idle, `verdict`
-    where none was asked for. `repeats`: of the measurement, from which a fit finds the scatter;
+    """Plan for one rival; `rival` is None where the verdict makes a fit unnecessary, `verdict`
+    where none was requested. `repeats`: of the measurement, from which a fit finds the scatter;
     None where it is known.
     """
 
@@ -198,7 +198,7 @@ class Plan(NotebookTable):
 
     @property
     def answer(self) -> Answer:
-        """Whether measuring more helps."""
+        """Use of more measurements."""
         if self.rival is None:
             return Answer.IMPOSSIBLE
         if self.rival.is_same:
@@ -207,8 +207,8 @@ class Plan(NotebookTable):
 
     @property
     def is_contained(self) -> bool:
-        """Whether the rival contains the model, as elements or the verdict on inclusion tell; the
-        verdict speaks of this force and sensor alone.
+        """True if the rival contains the model, by its elements or by the verdict on inclusion; the
+        verdict applies to this force and sensor only.
         """
         both = None if self.verdict is None else self.verdict.inclusions
         is_known = both is not None and both.closure.inclusion is Inclusion.LEFT_IN_RIGHT
@@ -355,5 +355,5 @@ def typical(rho: Real) -> float:
 
 
 def is_trusted(the_plan: Plan) -> bool:
-    """Whether the rival's best fit is one that several starts reached."""
+    """Return True if several starts reached the rival's best fit."""
     return the_plan.rival is None or the_plan.rival.trust is Trust.AGREED

@@ -1,4 +1,4 @@
-"""How well a rival structure can do what a model does: its best fit to the model's own response,
+"""Ability of a rival structure to reproduce a model: its best fit to the model's own response,
 without noise, and the test by which data of the model exclude it.
 
 Lines scatter by rho in ln |G| and in arg G. With G_A of the model at its values and G_B of the
@@ -76,7 +76,7 @@ class Search:
 
 
 def sensor_of(structure: AnyStructure) -> Sensor:
-    """What it shows; of circuits and compartments what stands for a position."""
+    """Quantity of its sensor; for circuits and compartments the quantity in place of a position."""
     return list(Sensor)[structure.order]
 
 
@@ -221,7 +221,7 @@ WIDEST = 1e5  # ratio of the highest to the lowest frequency
 
 
 class Trust(StrEnum):
-    """How far the rival's best fit may be taken for the best one that there is."""
+    """Confidence that the rival's best fit is the global optimum."""
 
     AGREED = "agreed"
     DOUBTFUL = "doubtful"
@@ -286,7 +286,7 @@ class Rival:
 
     @property
     def is_same(self) -> bool:
-        """Whether the rival does what the model does, but for rounding."""
+        """True if the rival reproduces the model up to rounding."""
         return bool(np.sqrt(np.mean(self.apart**2)) < ROUNDING)
 
     @property
@@ -407,7 +407,7 @@ def gain(rival: Rival, *measured: FrequencyResponse) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Left:
-    """What a fit leaves."""
+    """Remaining structures of a fit."""
 
     residual: Real
     basis: Real

@@ -98,7 +98,7 @@ class Adversary:
         self.cuts.append(values)
 
     def bound(self, shares: Real) -> float:
-        """What lambda of these shares is at most, from the fits so far."""
+        """Upper bound of lambda for these shares, from the fits so far."""
         return float(min(cut @ shares for cut in self.cuts))
 
     def noncentrality(self, shares: Real) -> float:

@@ -133,7 +133,7 @@ def mirror(chain: Chain) -> int:
 
 
 def rules() -> dict[str, Rule]:
-    """What the page says of every rule."""
+    """Texts of the page on every rule."""
     said = {
         rule.name: (rule.sign, f"{rule.in_words()}, {rule.title}", rule.text)
         for rule in RULES.values()

@@ -313,7 +313,7 @@ def _pieces(x0: float, x1: float, cuts: tuple[float, ...]) -> Iterator[Place]:
 
 
 def _notes(at: Layout) -> Iterator[Layer]:
-    """What the force passes before it acts, in words."""
+    """Elements that the force passes before it acts, in words."""
     said = [("T1", "lag T1")] if at.chain.lag else []
     said += [("Td", "dead time Td")] if at.chain.dead_time else []
     for place, (name, text) in enumerate(said):
@@ -329,7 +329,7 @@ class Drawing:
 
     @property
     def label(self) -> str:
-        """What is seen, in words."""
+        """Description of the drawing in words."""
         return f"A{self.number}: {self.scene.title}"
 
     @cached_property
@@ -362,9 +362,9 @@ class Part:
 
 
 def share(drawings: Iterable[Drawing], more: Iterable[Part] = ()) -> Markup:
-    """What a page holds: parts of drawings, each once, with `more` of them; and the drawings, which
-    refer to their parts from back to front. All but the last, the force of a chain, is a part of
-    its own, rest-5 of chain-5.
+    """Share the parts of drawings on a page: parts, each once, with `more` of them; and the
+    drawings, which refer to their parts from back to front. All but the last, the force of a chain,
+    is a part of its own, rest-5 of chain-5.
 
     >>> two = [Drawing(k, draw(Chain(2, meas_plus=k, damped=False))) for k in (1, 2)]
     >>> share(two).count('<g id="part-'), share(two).count("<use")
@@ -439,7 +439,7 @@ def sketch(model: int, chain: Chain, items: Sequence[Item]) -> Sketch:
 
 
 def additions(used: Iterable[tuple[Chain, Item]]) -> list[Part]:
-    """What sketches are made of beside the drawings of the chains, each once."""
+    """Parts of sketches in addition to the drawings of the chains, each once."""
     layers = {layer.name: layer for layer in (draw_item(*pair) for pair in used)}
     return [Part(f"more-{name}", layer) for name, layer in sorted(layers.items())]
 
@@ -472,8 +472,8 @@ def state(
 
 
 def draw_item(chain: Chain, item: Item) -> Layer:
-    """What one item adds to the drawing of a chain; layers of one name are the same for all chains
-    of the size.
+    """Layer that one item adds to the drawing of a chain; layers of one name are the same for all
+    chains of the size.
     """
     at, node = Layout(chain), item.at
     name = _name(item)
@@ -514,7 +514,7 @@ def clamp(at: Layout, node: int) -> tuple[Shape, ...]:
 
 
 def block(at: Layout, node: int, sign: str, height: int = 0) -> tuple[Shape, ...]:
-    """What is added to a mass, left of the post of a force, on top of `height` others."""
+    """Block added to a mass, left of the post of a force, on top of `height` others."""
     width, depth = BLOCK
     x = at.middle(node) - 2.5 - width / 2
     y = at.axis - (MASS + depth) / 2 - height * (depth - 0.5)  # neighbours share a line

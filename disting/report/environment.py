@@ -58,7 +58,7 @@ class Policy:
 
 
 def source_of(text: str) -> str:
-    """How a policy names a text that it allows.
+    """Source expression by which a policy allows a text.
 
     >>> source_of("")
     "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='"

@@ -215,8 +215,8 @@ Link = tuple[str, str, str]
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """What the index shows of a catalogue, or of a family with ground dampers; groups are those
-    of several models.
+    """Card of a catalogue, or of a family with ground dampers, on the index; groups are those of
+    several models.
     """
 
     name: str

@@ -49,7 +49,7 @@ class Member:
 
     @property
     def factors(self) -> frozenset[str]:
-        """What its numerators and denominators may have in common."""
+        """Possible common factors of its numerators and denominators."""
         return frozenset(_what_cancels(s) for s in self.special or ())
 
 
@@ -70,7 +70,7 @@ class Class:
 
     @property
     def n_with_factors(self) -> int:
-        """How many parts there are if common factors are kept."""
+        """Number of parts if common factors are kept."""
         return len({(i, m.factors) for i, part in enumerate(self.parts) for m in part})
 
     @property
@@ -81,7 +81,7 @@ class Class:
 
 
 def is_canonical(card: Card) -> bool:
-    """Whether the impedance determines all values, but for finitely many sets."""
+    """Return True if the impedance determines all values up to finitely many sets."""
     return card.known.local.rank == len(card.model.parameters)
 
 
@@ -108,8 +108,8 @@ def _class(shown: Listing, number: int, cards: list[Card]) -> Class:
 
 
 def _differ(member: Member, other: Member) -> bool:
-    """Whether one of two networks that are the same for almost all values is known to give more
-    than the other one at special values.
+    """Return True if one of two networks that are equivalent for almost all values is known to give
+    more than the other one at special values.
     """
     if None not in (member.special, other.special) and bool(member.special) != bool(other.special):
         return True
@@ -124,8 +124,8 @@ def _within(member: Member, other: Member) -> tuple[bool | None, bool | None]:
 
 
 def _same(shown: Listing, member: Member, other: Member) -> bool:
-    """Whether two networks that are the same for almost all values are so for special ones too: by
-    the parts of which they are made, or by formulas.
+    """Return True if two networks that are equivalent for almost all values are so for special ones
+    too: by their parts, or by formulas.
     """
     if all(_within(member, other)):
         return True

@@ -47,14 +47,14 @@ class JudgedList:
         return self.decisions[view].verdict(left - 1, right - 1)
 
     def reached(self, number: int, other: int) -> Reach | None:
-        """Which positive values of the one model have equivalents in the other one, where only
-        some have, and the conditions are short.
+        """Positive values of the one model that have equivalents in the other one, where only some
+        have, and the conditions are short.
         """
         return self.conditions.get((number, other))
 
     def at_special_values(self, left: int, right: int) -> SpecialValues | None:
-        """What two models that are the same for almost all positive values give at special ones;
-        None where they are not, and where the verdict leaves none out.
+        """Relation at special values of two models that are equivalent for almost all positive
+        values; None where they are not, and where the verdict excludes none.
         """
         verdict = self.verdict(min(left, right), max(left, right), View.POSITIVE)
         if verdict.relation is not Relation.INDISTINGUISHABLE or not verdict.has_exceptions:
@@ -62,7 +62,9 @@ class JudgedList:
         return special_values(self.family[left - 1], self.family[right - 1])
 
     def said_of(self, low: int, high: int, view: View) -> str:
-        """What part of each of two models the other one reaches, {L} being the first one."""
+        """Sentence on the part of each of two models that the other one reaches, {L} being the
+        first one.
+        """
         if view is not View.POSITIVE:
             return ""
         special = self.at_special_values(low, high)
@@ -97,15 +99,14 @@ class NamedDrawing(Drawing):
 
     @property
     def label(self) -> str:
-        """What is seen, in words."""
+        """Description of the drawing in words."""
         return f"{self.name}: {self.scene.title}"
 
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """What pages say of a model: how it is called, its drawing where it has one, what it
-    determines over complex and over positive parameters, and in each of VIEWS the number of its
-    group, or 0.
+    """Card of a model: its name, its drawing if any, the parameters determined over complex and
+    over positive parameters, and in each of VIEWS the number of its group, or 0.
     """
 
     number: int
@@ -123,12 +124,12 @@ class Card:
 
     @property
     def sets(self) -> str:
-        """How many positive parameter vectors have one behaviour."""
+        """Number of positive parameter vectors with the same behaviour."""
         return sets_in_words(self.over_positive)
 
     @property
     def is_same_over_complex(self) -> bool:
-        """Whether all parameters have one value, over complex parameters as well."""
+        """True if all parameters have one value, over complex parameters as well."""
         found = self.over_positive
         return found.level is Level.GLOBAL and found.over_complex is None
 
@@ -144,7 +145,9 @@ class Card:
 
 @dataclass(frozen=True)
 class Listing:
-    """What is shown: models and verdicts, the title, the name of the page without its suffix."""
+    """Content of a page: models and verdicts, the title, the name of the page without its
+    suffix.
+    """
 
     found: JudgedList
     title: str
@@ -152,7 +155,7 @@ class Listing:
 
     @cached_property
     def numbered(self) -> bool:
-        """Whether models are called A1, A2, ..: where their names are texts of networks, which are
+        """True if models are called A1, A2, ..: where their names are texts of networks, which are
         long and which commands read.
         """
         return all(map(_is_named_by_its_text, self.found.family))
@@ -163,12 +166,12 @@ class Listing:
         return f"models/{self.name}"
 
     def label(self, number: int) -> str:
-        """What a model is called."""
+        """Name of a model on the page."""
         return f"A{number}" if self.numbered else self.found.family[number - 1].name
 
     @cached_property
     def domains(self) -> tuple[Over, ...]:
-        """What is said over each domain."""
+        """Content of the page over each domain."""
         return tuple(over(self.found, view) for view in VIEWS)
 
     @cached_property

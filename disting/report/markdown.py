@@ -69,7 +69,7 @@ ANCHORS = {word.lower(): anchor for word, anchor in HARD.items()}
 
 
 def hard_words(text: str) -> dict[str, str]:
-    """Which of them a text uses, with their headings in the glossary.
+    """Hard words in a text, with their headings in the glossary.
 
     >>> hard_words("Generic values; chi2 per line of two fibres")
     {'generic': 'generic', 'chi2 per line': 'chi2-per-line', 'fibre': 'fibre'}
@@ -269,8 +269,8 @@ def _code(
 
 
 def typed_text(shown: str) -> str:
-    """What a reader types of a block: commands without their outputs, Python without its answers,
-    else the whole of it.
+    """Part of a block that a reader types: commands without their outputs, Python without its
+    answers, else the whole of it.
 
     >>> typed_text("$ disting doctor\\nfine"), typed_text(">>> for i in (1,):\\n...     i\\n1")
     ('disting doctor', 'for i in (1,):\\n    i')

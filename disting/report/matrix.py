@@ -161,7 +161,7 @@ def figure(catalog: Catalog) -> Scene:
 
 
 def has_slides(catalog: Catalog) -> bool:
-    """Whether the figure of all views is too wide for a slide."""
+    """Return True if the figure of all views is too wide for a slide."""
     return len(VIEW_TITLES) * _panel_width(len(catalog.family)) > SLIDE[0]
 
 
@@ -271,7 +271,7 @@ def _number(grid: Grid, pair: tuple[int, int]) -> Text:
 
 
 def sign(decided_by: str) -> str:
-    """What a field of a matrix shows, nothing of an undecided pair.
+    """Sign in a field of a matrix, empty for an undecided pair.
 
     >>> sign("4"), sign("exact"), sign("")
     ('4', 'E', '')

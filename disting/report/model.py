@@ -33,19 +33,19 @@ from disting.verdict.result import Relation, Verdict, View
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """What pages say of a model."""
+    """Content of the pages on a model."""
 
     row: ModelRow
     drawing: Drawing
 
     @property
     def sets(self) -> str:
-        """How many positive parameter vectors have one behaviour."""
+        """Number of positive parameter vectors with the same behaviour."""
         return sets_in_words(self.known)
 
     @property
     def known(self) -> Identifiability:
-        """What is determined over positive parameters."""
+        """Identifiability over positive parameters."""
         return over_positive(self.row)
 
     @property
@@ -183,7 +183,9 @@ def _over_complex(catalog: Catalog, number: int, relation: Relation) -> list[int
 
 
 def reasons_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:
-    """What tells the model from how many others, the most frequent first."""
+    """Reasons that distinguish the model from others, with the number of others, the most frequent
+    first.
+    """
     counter = Counter(
         v.decided_by for v in verdicts.values() if v.relation is Relation.DISTINGUISHABLE
     )
@@ -191,7 +193,7 @@ def reasons_apart(verdicts: dict[int, Verdict]) -> tuple[tuple[str, int], ...]:
 
 
 def limits(number: int, verdicts: dict[int, Verdict]) -> Limits:
-    """Which models become this one in a limit of their parameters, and the reverse."""
+    """Models that become this one in a limit of their parameters, and the reverse."""
 
     def others(larger: bool) -> Iterator[int]:
         """Models that this one lies in (`larger`), or that lie in it."""
@@ -227,7 +229,7 @@ def relation_from(number: int, other: int, verdict: Verdict) -> Relation:
 def ways(
     number: int, other: int, verdict: Verdict
 ) -> tuple[PositiveFinding | None, PositiveFinding | None]:
-    """Which positive models have positive equivalents: from this one to the other one, and back."""
+    """Positive models with positive equivalents: from this one to the other one, and back."""
     ways = (verdict.left_positive, verdict.right_positive)
     return ways if number < other else ways[::-1]
 
@@ -252,8 +254,8 @@ def _twin(catalog: Catalog, model: Model, other: int, verdict: Verdict) -> Twin:
 def _positive(
     ways: tuple[PositiveFinding | None, PositiveFinding | None], other: int, *, one_sided: bool
 ) -> str:
-    """Which positive parameters of this model have positive ones of the other, and the reverse
-    where that is not the same.
+    """Positive parameters of this model that have positive ones of the other, and the reverse where
+    it differs.
     """
     own_share, other_share = (
         Share.UNKNOWN if finding is None else finding.share for finding in ways
@@ -283,7 +285,7 @@ def _port(plus: int, minus: int) -> str:
 
 
 def rule_in_words(decided_by: str) -> str:
-    """What decided, in words.
+    """Name of the deciding rule in words.
 
     >>> rule_in_words("4"), rule_in_words("exact")
     ('condition 4', 'the exact decision')

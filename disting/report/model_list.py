@@ -75,7 +75,7 @@ class Twin:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Which values of a model, called by its `label`, have equivalents in the `other` one: all, or
+    """Values of a model, called by its `label`, that have equivalents in the `other` one: all, or
     those where any of the `conditions` hold.
     """
 
@@ -130,7 +130,7 @@ def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str
 
 
 def _sort(network: Network | None) -> Sort:
-    """Which words are used of it; those of compartments suit any model."""
+    """Physical domain whose words describe it; those of compartments suit any model."""
     if network is None:
         return Sort.COMPARTMENTS
     is_filter = network.sort is Sort.CIRCUIT and network.inputs != network.outputs

@@ -240,7 +240,7 @@ def _ends(e: Element) -> frozenset[int]:
 
 
 def drawing_of(machine: Network) -> dict[str, object]:
-    """What the page needs of a machine; nodes are numbered from 1 without gaps."""
+    """Data of a machine for the page; nodes are numbered from 1 without gaps."""
     number = dict(zip((0, *machine.nodes), count(), strict=False))
     joints, values = _joints(machine), _listed(machine)
     placed = places(machine)
@@ -350,12 +350,12 @@ def _side(a: Place, b: Place, c: Place) -> float:
 
 
 def _between(a: Place, b: Place, c: Place) -> bool:
-    """Whether c, on the line through a and b, is between them."""
+    """Return True if c, on the line through a and b, is between them."""
     return min(a, b) < c < max(a, b)
 
 
 def _cross(parts: Line, other: Line) -> bool:
-    """Whether two lines cross, or lie on each other."""
+    """Return True if two lines cross or overlap."""
     ends = [_side(*parts, p) for p in other], [_side(*other, p) for p in parts]
     if set(parts) & set(other):
         on = all(x == 0 for side in ends for x in side)

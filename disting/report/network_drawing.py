@@ -71,7 +71,8 @@ class Part:
 
 
 def series_parallel(network: Network) -> Part | None:
-    """What a one-port is made of, from its plus end to its minus end; None of another network.
+    """Series-parallel tree of a one-port, from its plus end to its minus end; None for any other
+    network.
 
     Parts between the same two nodes are in parallel, parts that share a node that nothing else
     touches are in series; what becomes one part by that is in series and parallel (Duffin).
@@ -215,7 +216,7 @@ LETTERS = 11.0
 
 
 def port_signs(network: Network) -> tuple[list[str], list[str]]:
-    """What the inputs and outputs are called: F, or F1 and F2."""
+    """Signs of the inputs and outputs: F, or F1 and F2."""
     names = {
         Sort.MACHINE: ("F", "y"),
         Sort.CIRCUIT: ("i", "v"),
@@ -330,7 +331,7 @@ def _joints(network: Network, places: dict[int, Place]) -> tuple[Joints, dict[in
 
 
 def _asides(count: int) -> list[float]:
-    """How far to the right of the straight way parallel joints lie."""
+    """Offsets of parallel joints to the right of the straight line."""
     return [(k - (count - 1) / 2) * ASIDE for k in range(count)]
 
 

@@ -167,7 +167,7 @@ SIGNS: dict[str, Callable[[Track], tuple[Shape, ...]]] = {
 
 @dataclass(slots=True)
 class Sheet:
-    """What is drawn so far, as layers and as a cloud of points that covers it."""
+    """Content of the drawing so far, as layers and as a cloud of points that covers it."""
 
     layers: list[Layer] = field(default_factory=list)
     clouds: list[NDArray[np.float64]] = field(default_factory=list)
@@ -179,7 +179,7 @@ class Sheet:
         self.clouds += [_cloud(shape) for shape in rects]
 
     def crowd(self, track: Track, half: float) -> int:
-        """How many points lie within a distance of a track."""
+        """Number of points within a distance of a track."""
         points = np.concatenate(self.clouds) - np.array(track.start)
         ux, uy = track.direction
         along, aside = points @ (ux, uy), points @ (-uy, ux)
@@ -187,7 +187,7 @@ class Sheet:
         return int(inside.sum())
 
     def crowd_of(self, text: Text) -> int:
-        """How many points lie where a text is to stand."""
+        """Number of points in the area of a text."""
         left, top, right, bottom = extent(text)
         return self.crowd(
             Track((left, (top + bottom) / 2), (right + 0.1, (top + bottom) / 2)),

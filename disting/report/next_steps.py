@@ -1,4 +1,4 @@
-"""What to measure next, as pages say it: of a model, of a pair and of a whole group.
+"""Next measurements on pages: of a model, of a pair and of a whole group.
 
 What is told is what `disting next` tells, with its default costs.
 """
@@ -31,9 +31,9 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """What to measure next if it is this structure: a row a kind with its cost and a cell a
-    mass, the structures it is to be told from, what is surely enough anywhere, and the least sets;
-    `items`: what is drawn.
+    """Next measurements if this structure is true: a row for each kind with its cost and a cell for
+    each mass, the structures to distinguish it from, the kinds that are certainly enough anywhere,
+    and the least sets; `items`: the drawn ones.
     """
 
     number: int
@@ -46,7 +46,7 @@ class Advice:
 
 
 def found_for(catalog: Catalog) -> NextCatalog | None:
-    """What is shipped for a catalogue; None where its groups are not those of the shipped one."""
+    """Shipped file for a catalogue; None where its groups are not those of the shipped one."""
     if catalog.n_masses not in SHIPPED_SIZES or catalog.n_masses not in CATALOGUES:
         return None
     the_catalog = next_catalog(catalog.n_masses, damped=catalog.damped)
@@ -103,7 +103,7 @@ def menu_of(catalog: NextCatalog | None) -> Iterator[tuple[Chain, Item]]:
 
 
 def next_for(catalog: NextCatalog, members: tuple[int, ...]) -> Menu[Chain]:
-    """What to measure next for structures of one group, called as pages call them."""
+    """Next measurements for structures of one group, named as pages name them."""
     whole = catalog.further(members)
     assert whole is not None  # members of one group
     return replace(whole, names=tuple(f"A{m}" for m in members))

@@ -1,4 +1,4 @@
-"""What a notebook shows of an object: a drawing, a table, a plot with matplotlib on given axes or
+"""Display of an object in a notebook: a drawing, a table, a plot with matplotlib on given axes or
 on a new figure; and a chain as formulas or numbers. Lists of models and networks have tables too:
 candidates before a fit, what is the same, which explain a measurement.
 

@@ -95,7 +95,7 @@ class ViewSummary:
 
 @dataclass(frozen=True, slots=True)
 class DomainGroups:
-    """What a page says over one domain, with the drawings of the groups' members."""
+    """Content of a page over one domain, with the drawings of the groups' members."""
 
     of: Over
     groups: list[list[Drawing]]
@@ -173,7 +173,7 @@ def _slides(catalog: Catalog) -> list[tuple[str, str]]:
 def _payload(
     catalog: Catalog, domains: Sequence[Over], further: NextCatalog | None, pages: Families
 ) -> Markup:
-    """What the page's script knows of the pairs."""
+    """Data of the pairs for the page's script."""
     return payload(
         catalog,
         domains,
@@ -242,6 +242,6 @@ def example(catalog: Catalog) -> Drawing:
 
 
 def decides(rule: Rule) -> Relation:
-    """What a rule decides; of those that decide either way, what they mostly do."""
+    """Relation that a rule decides; for rules that decide either, the usual one."""
     apart = rule is EXACT or rule.role is Role.NECESSARY
     return Relation.DISTINGUISHABLE if apart else Relation.INDISTINGUISHABLE

@@ -70,12 +70,12 @@ class Over:
 
     @property
     def domain(self) -> Domain:
-        """Which parameters."""
+        """Domain of the parameters."""
         return self.view.domain
 
 
 def over(decided: DecidedModels, view: View) -> Over:
-    """What pages say over the domain of a view, one of VIEWS."""
+    """Content of pages over the domain of a view, one of VIEWS."""
     groups = decided.classes(view)
     sides = tuple(one_sided_pairs(decided)) if view is View.POSITIVE else ()
     return Over(
@@ -274,8 +274,8 @@ def _entry(verdict: Verdict, what: str, reached: str) -> Entry:
 
 
 def _shares(verdict: Verdict) -> Iterator[str]:
-    """Which positive models of each side have positive equivalents, where the evidence does not
-    say so already.
+    """Positive models of each side with positive equivalents, where the evidence does not state
+    them already.
     """
     if verdict.decided_by == ADMISSIBLE.name:
         return

@@ -1,5 +1,4 @@
-"""What a figure consists of: a few frozen shapes in layers. `svg` and `png` turn a scene into a
-file.
+"""Elements of a figure: a few frozen shapes in layers. `svg` and `png` turn a scene into a file.
 
 Colours are roles (`Ink`), so that the same scene serves a page that knows light and dark, and a
 stand-alone file. Coordinates run to the right and downwards, in pixels at scale 1.

@@ -139,8 +139,8 @@ def limits(catalog: SizesCatalog) -> dict[str, object]:
 
 
 def limit(verdict: Verdict) -> int:
-    """Which model is a limit of the other one; UNTOLD of models that are the same over complex
-    parameters.
+    """Number of the model that is a limit of the other one; UNTOLD for models that are equivalent
+    over complex parameters.
     """
     return KINDS.get(verdict.closure, UNTOLD)
 

@@ -30,8 +30,8 @@ SAID = {relation: relation.value for relation in Relation} | {
 
 
 def unknown_parameters(row: "ModelRow") -> str:
-    """What cannot be determined of a model, which pages name in the place of {0}; "" where there is
-    nothing.
+    """Parameters of a model that cannot be determined, which pages name in the place of {0}; ""
+    where there are none.
     """
     return undetermined_sentence("{0}", row.rank, row.n_parameters)
 
@@ -125,8 +125,8 @@ def raise_exponents(text: str) -> str:
 
 
 def sets_in_words(found: "Identified") -> str:
-    """How many parameter vectors over the domain have one behaviour: the numbers found at random
-    values, where they are known to depend on the values.
+    """Number of parameter vectors over the domain with the same behaviour: the numbers found at
+    random values, where they are known to depend on the values.
     """
     if found.level is Level.NOT:
         return "infinitely many"

@@ -39,9 +39,9 @@ STYLE = "models/style.css"
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """What a site is written from: the `catalogs`, families with ground `dampers` and catalogues of
-    several sizes, `across`, that are written; the guide's `parts`; and `pages`, what is known of
-    all pages of pairs, those of shipped catalogues that lie in the folder already among them.
+    """Input of a site: the `catalogs`, families with ground `dampers` and catalogues of several
+    sizes, `across`, that are written; the guide's `parts`; and `pages`, the known data of all pages
+    of pairs, including those of shipped catalogues that are in the folder already.
     """
 
     catalogs: Sequence[Catalog]
@@ -196,7 +196,7 @@ def _write(out: Path, file: File) -> str:
 
 
 def _link(notebook: GuidePage) -> Link:
-    """What leads from the index to the page of a notebook."""
+    """Link from the index to the page of a notebook."""
     return (f"guide/{notebook.name}.html", f"Notebook: {notebook.title}", "with code and outputs")
 
 

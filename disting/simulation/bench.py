@@ -41,7 +41,7 @@ HEADER = ("frequency_hz", "amplitude")
 
 
 class Kind(StrEnum):
-    """How the lines of one period are chosen.
+    """Choice of the lines of one period.
 
     >>> Excitation(Kind.CHIRP, low=1.0, high=100.0).kind.value
     'chirp'
@@ -188,7 +188,7 @@ SILENT = 1e-9  # share of the largest line of a period below which a line is rou
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """How the record is taken.
+    """Settings of the record.
 
     `sampling_rate` [Hz]; `samples` of one period; `periods`; standard deviations of noise
     `input_noise` and `output_noise` added to the recorded signals [their units]: white, that of
@@ -313,7 +313,7 @@ def _record(
 
 
 def _output(model: AnyModel, values: Mapping[str, float], period: Real, bench: Bench) -> Real:
-    """What the sensor shows without noise, shape (samples * periods,)."""
+    """Sensor signal without noise, shape (samples * periods,)."""
     form = form_of(model)
     act, order = form.act, form.order
     omega = 2 * np.pi * np.arange(bench.samples // 2 + 1) * bench.sampling_rate / bench.samples

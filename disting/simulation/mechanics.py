@@ -48,8 +48,8 @@ class Matrices(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """What P(s), b and c are made of; `parameters` with those that are none of an element; `nodes`
-    in the order of rows; `order` of the sensor.
+    """Terms of P(s), b and c; `parameters` with those that belong to no element; `nodes` in the
+    order of rows; `order` of the sensor.
     """
 
     parameters: tuple[str, ...]

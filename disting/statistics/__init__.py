@@ -1,1 +1,1 @@
-"""How much the lines of a measured response scatter, and how their residuals hang together."""
+"""Scatter of the lines of a measured response, and correlation of their residuals."""

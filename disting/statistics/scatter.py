@@ -1,4 +1,4 @@
-"""How much a measured line scatters: the yardstick of every statement on a fit.
+"""Scatter of a measured line: the basis of every statement on a fit.
 
 sigma_k^2 = E |noise of G_k|^2, and rho_k = sigma_k / (|G_k| sqrt 2) the standard deviation of
 ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put together so:
@@ -333,7 +333,7 @@ def _from_neighbours(
 
 
 def _preferred(levels: Sequence[float]) -> int:
-    """Which of the levels counts, logarithms of variances without and with fitted responses: the
+    """Index of the level to use, logarithms of variances without and with fitted responses: the
     smallest with one, unless that without is smaller by far.
     """
     best = int(np.argmin(levels[1:])) + 1 if len(levels) > 1 else 0

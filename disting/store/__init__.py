@@ -1,4 +1,4 @@
-"""What is kept between runs: the store, the digest of the code that its answers depend on, and
+"""Persistence between runs: the store, the digest of the code that its answers depend on, and
 workers.
 """
 

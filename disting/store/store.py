@@ -239,8 +239,8 @@ def replace(path: str, suspect: Identity, wait: float) -> str:
 
 
 def _was_ours(path: str) -> bool:
-    """Whether what the path holds is a damaged cache, and not some file of the user's that was
-    named by mistake.
+    """Return True if the path holds a damaged cache, not some file of the user's that was named by
+    mistake.
 
     Our caches bear a stamp, and have a lock beside them from the moment they are made. The file is
     read only here, where it could not be used: to close it would drop the locks on one that is in
@@ -255,8 +255,8 @@ def _was_ours(path: str) -> bool:
 
 
 def _check_kind(path: str) -> None:
-    """What passes may be opened, or renamed if it is not ours; a device or a folder in use may
-    not.
+    """Check that the path may be opened, or renamed if it is not ours; raises an error for a device
+    or a folder in use.
     """
     if os.path.isdir(path) and not os.listdir(path):
         raise _ForeignError("it is a folder")
@@ -319,7 +319,9 @@ class CacheWarning(UserWarning):
 
 @dataclass(frozen=True)
 class StoreInfo:
-    """What a store holds. `path` is "" for no cache; `bytes` is page count times page size."""
+    """Content and size of a store. `path` is "" for no cache; `bytes` is page count times page
+    size.
+    """
 
     path: str
     entries: int

@@ -92,7 +92,7 @@ def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[AnySide, A
 
 
 def _inclusions(result: Decisions, ask: Ask) -> None:
-    """What is one-sided, of all pairs of unequal rank at once."""
+    """Decide the inclusions of all pairs of unequal rank at once."""
     subjects = result.subjects
     pairs = [
         (i, j)
@@ -106,8 +106,8 @@ def _inclusions(result: Decisions, ask: Ask) -> None:
 
 
 def _positive(result: Decisions, ask: Ask) -> None:
-    """Which positive models have positive equivalents, wherever generic ones have equivalents; all
-    at once.
+    """Decide the shares of positive models with positive equivalents, wherever generic ones have
+    equivalents; all at once.
     """
     n, subjects = len(result.subjects), result.subjects
     ways = [(i, j) for i in range(n) for j in range(n) if i != j and _is_asked(result, i, j)]
@@ -121,8 +121,8 @@ def _positive(result: Decisions, ask: Ask) -> None:
 
 
 def _is_asked(result: Decisions, i: int, j: int) -> bool:
-    """Whether generic models i may have equivalents j: whether they are such models, or limits of
-    them, and it can be asked.
+    """Return True if generic models i may have equivalents j: whether they are such models, or
+    limits of them, and the question can be decided.
     """
     if not has_shares(result.subjects[i], result.subjects[j]):
         return False

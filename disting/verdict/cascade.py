@@ -73,8 +73,8 @@ def decide(left: AnySide, right: AnySide, query: Query) -> Verdict:
 
 
 def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | None) -> Finding:
-    """What is found over real or positive parameters, as sure as the verdict over complex ones that
-    it rests on; without one, what rests on none.
+    """Finding over real or positive parameters, as certain as the verdict over complex ones that it
+    rests on; without one, a finding that rests on none.
     """
     if equal is None:
         return asking.over_domain(left, right, domain)
@@ -85,9 +85,9 @@ def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | 
 
 
 def follows(v: Verdict, evidence: Evidence, query: Query) -> bool:
-    """Whether evidence of this kind shows this relation, by a rule of this kind, over this domain,
-    where the query lets it decide. Over real and positive parameters equality is shown by the rule
-    that asks for such; a difference over complex ones is one there too.
+    """Return True if evidence of this kind proves this relation, by a rule of this kind, over this
+    domain, and the query allows it to decide. Over real and positive parameters equality is shown
+    by the rule that asks for such; a difference over complex ones is one there too.
     """
     rule, at = RULES[v.decided_by], v.representation
     carrier = {EXACT: Carrier.EXACT, ADMISSIBLE: Carrier.ADMISSIBLE}.get(rule, Carrier.CONDITION)
@@ -116,7 +116,7 @@ def _with_shares(verdict: Verdict, left: AnySide, right: AnySide) -> Verdict:
 
 
 def said_of(share: PositiveFinding, image: Inclusion) -> PositiveFinding | None:
-    """What is found of positive equivalents; nothing is open of models that have none with finite
+    """Finding on positive equivalents; nothing is open for models that have none with finite
     elements.
     """
     return None if share.share is Share.UNKNOWN and image is Inclusion.NEITHER else share

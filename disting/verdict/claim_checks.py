@@ -1,4 +1,4 @@
-"""What is looked at of one verdict of a file, and how: each check yields what does not hold.
+"""Checks of one verdict of a file: each yields the statements that do not hold.
 
 Evidence that is true can have been chosen, and then bounds nothing: so certainty, bounds and points
 are compared with those that the settings give, found again with evidence of this kind.
@@ -63,7 +63,7 @@ def _untrue(claim: Claim) -> Iterator[str]:
 
 
 def _ungraded(claim: Claim) -> Iterator[str]:
-    """Whether the settings find evidence of this kind with this certainty."""
+    """Check that the settings find evidence of this kind with this certainty."""
     v = claim.verdict
     if v.evidence is None:
         return
@@ -75,8 +75,8 @@ def _ungraded(claim: Claim) -> Iterator[str]:
 
 
 def _again(claim: Claim, evidence: Evidence) -> Claimed | None:
-    """What is found with evidence of this kind; None for nothing, or by a condition that was not
-    asked.
+    """Finding with evidence of this kind; None for nothing, or by a condition that was not part of
+    the query.
     """
     v = claim.verdict
     if v.decided_by not in (EXACT.name, ADMISSIBLE.name):
@@ -95,7 +95,7 @@ def _text(evidence: Evidence) -> str:
 
 
 def _condition_again(claim: Claim) -> Claimed:
-    """What the condition alone finds; what `prove` proved of it is proven again."""
+    """Finding of the condition alone; statements that `prove` proved are proven again."""
     v, left, right = claim.verdict, claim.sides.left, claim.sides.right
     view = claim.query.view if claim.query.view in (View.TF, View.MARKOV) else View.COMBINED
     again = decide(left, right, Query(view, (v.decided_by,), claim.query.markov))
@@ -181,4 +181,4 @@ CHECKS: dict[str, Check] = {
     LIMITS: _false_inclusions,
     SHARES: _false_shares,
 }
-"""What is looked at of a claim, and how."""
+"""Checks of a claim, by name."""

@@ -43,7 +43,7 @@ from disting.verdict.engine import Engine, Progress, silent
 
 Ask = Callable[[Question[Finding], Sequence[tuple[Chain, ...]]], list[Finding]]
 Findings = Mapping[tuple[Chain, Chain], Finding]
-"""What is known of pairs of canonical chains."""
+"""Known findings on pairs of canonical chains."""
 OF_MARKOV = tuple(c for c in NECESSARY if not c.of_degrees)
 # transfer function, Markov parameters, 1/G
 TESTS = (*(c.rule.name for c in (*NECESSARY, *OF_MARKOV)), EXACT.name)
@@ -161,14 +161,14 @@ class _Work:
                 self.buckets.classes.unite(first, i)
 
     def take_over(self, settled: Findings) -> None:
-        """What is settled of canonical forms that are here."""
+        """Take over the known findings on canonical forms that are present."""
         at = {s.view.form: i for i, s in enumerate(self.subjects)}
         for (first, second), finding in settled.items():
             if first in at and second in at:
                 self.take(at[first], at[second], finding)
 
     def take(self, i: int, j: int, finding: Finding) -> None:
-        """What a finding says of two forms, where it is sure."""
+        """Record a finding on two forms, where it is certain."""
         if finding.certainty is Certainty.NUMERICAL:
             return
         if finding.outcome is Outcome.HOLDS:
@@ -191,7 +191,7 @@ class _Work:
         return [pair for pair in pairs if pair not in apart]
 
     def finished(self, chains: Sequence[Chain]) -> Classes:
-        """What was found, for the chains as given."""
+        """Classes found, for the chains as given."""
         columns, root = self.buckets.columns, self.buckets.classes.root
         keys = {i: columns[i][:-1] for i in range(len(self.subjects))}
         apart = [

@@ -105,7 +105,7 @@ def _claims(decided: Decisions) -> Iterator[tuple[tuple[int, int], Claim]]:
 
 
 def _claim(verdict: Verdict, left: AnySide, right: AnySide) -> Claim | None:
-    """What is not proven of a bounded verdict by ranks."""
+    """Claim of a verdict bounded by ranks that is not proven."""
     evidence = verdict.evidence
     if verdict.certainty is not Certainty.BOUNDED or not isinstance(evidence, Ranks):
         return None
@@ -199,8 +199,8 @@ def findings(
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> tuple[Step, ...]:
-    """What every condition finds in every representation, in order, whether it decides or not; of
-    models as `compare` takes them. Raises InputError as that does.
+    """List the findings of every condition in every representation, in order, whether it decides or
+    not; of models as `compare` takes them. Raises InputError as that does.
 
     >>> steps = findings(Chain(2), Chain(2, meas_plus=2))
     >>> [(s.representation.value, s.finding.rule.name, s.finding.outcome.value) for s in steps][:3]
@@ -237,7 +237,7 @@ def identifiability(
     domain: Domain | str = Domain.POSITIVE,
     engine: Engine | None = None,
 ) -> Identifiability | ParameterIdentifiability:
-    """What is determined of a chain or a general model over a domain of parameters: each parameter
+    """Identifiability of a chain or a general model over a domain of parameters: each parameter
     globally, up to exchanges, locally or not at all (`levels`), the number of determinable ones
     (`rank`), the dimension of a generic fibre (`freedom`), and bounds of the number of parameter
     vectors that fit (`least`, `most`).

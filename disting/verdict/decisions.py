@@ -1,5 +1,5 @@
-"""What is decided of all pairs of a list of models, as numbers a pair. Evidence is made when
-somebody asks for a pair.
+"""Decisions on all pairs of a list of models, as numbers by pair. Evidence is made when somebody
+asks for a pair.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -36,18 +36,18 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Part:
-    """What was decided of some models of a list by themselves; `places`: which they are."""
+    """Decisions on some models of a list among themselves; `places`: their places in the list."""
 
     decisions: "Decisions"
     places: tuple[int, ...]
 
     @cached_property
     def numbers(self) -> dict[int, int]:
-        """Which of the part stands in a place of the list."""
+        """Numbers of the part's models by their places in the list."""
         return {place: number for number, place in enumerate(self.places)}
 
     def moved(self, values: Mapping[Pair, T]) -> dict[Pair, T]:
-        """What was found of its pairs, by their places in the list."""
+        """Values of its pairs, by their places in the list."""
         return {(self.places[i], self.places[j]): x for (i, j), x in values.items()}
 
 
@@ -108,7 +108,7 @@ class Decisions(NotebookTable):
         )
 
     def within(self, i: int, j: int) -> Pair | None:
-        """Which pair of the part it is, if it is one."""
+        """Pair of the part at these places, if there is one."""
         numbers = self.part.numbers if self.part else {}
         return (numbers[i], numbers[j]) if i in numbers and j in numbers else None
 

@@ -109,7 +109,7 @@ def matrix_of(measured: MeasuredChain) -> MatrixModel:
 
 
 def _is_open(found: ParameterIdentifiability) -> bool:
-    """Whether the solutions may differ from one domain to another."""
+    """Return True if the solutions may differ from one domain to another."""
     return bool(found.named(Level.LOCAL) or found.named(Level.UNKNOWN))
 
 

@@ -1,4 +1,4 @@
-"""How surely everything that is said of a family holds together.
+"""Joint certainty of all statements on a family.
 
 The error bound of a pair is that of the pair alone. Pairs share the points and primes of their
 models, so a bound of all of them adds up what can go wrong, independent or not (union bound): a
@@ -53,7 +53,7 @@ def classes_safety(classes: Classes) -> int:
 
 
 def joint_in_words(safety: int) -> str:
-    """How surely everything that is said of a family holds together.
+    """Joint certainty of all statements on a family, in words.
 
     >>> joint_in_words(121)
     'all of it together is wrong with a probability of at most 2^-121'
@@ -75,7 +75,7 @@ def _safeties(decided: Decisions) -> Iterator[int]:
     """
 
     def own(by_pair: Mapping[tuple[int, int], T]) -> list[T]:
-        """What is not of the part."""
+        """Values of the pairs that are not of the part."""
         return [x for pair, x in by_pair.items() if decided.within(*pair) is None]
 
     profiles = set[tuple[Stage, int]]()

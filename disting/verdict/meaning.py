@@ -1,4 +1,4 @@
-"""What a verdict means for who measures: one sentence for the engineer at the drive.
+"""Meaning of a verdict for a measurement: one sentence for the engineer at the drive.
 
 It is derived from the evidence, which says the same in algebra (`Verdict.sentence`). A response
 here is all that is measured, from the force to the sensor or from the inputs to the outputs; the
@@ -26,9 +26,9 @@ PARTS = {
 
 
 def meaning_sentence(verdict: Verdict, what: str = RESPONSE, everywhere: bool = False) -> str:
-    """What a measurement of either model shows, or, where nothing is decided, why and what helps.
-    `what` is measured: a response, of circuits an impedance. `everywhere`: special values, of which
-    the verdict does not speak, are known to be no exception.
+    """Sentence on the result of measuring either model, or, where nothing is decided, on the reason
+    and a remedy. `what` is measured: a response, of circuits an impedance. `everywhere`: special
+    values, of which the verdict does not speak, are known to be no exception.
 
     Of unequal ranks (conditions 4 and 5): the behaviours of the model of smaller rank lie in a
     variety of smaller dimension, so a generic behaviour of the other one is not there; the number
@@ -74,8 +74,8 @@ def _n(word: str) -> str:
 
 
 def undetermined_sentence(name: str, rank: int, parameters: int) -> str:
-    """What no measurement with these inputs and outputs finds out of one model; "" where each
-    parameter is determined, at least up to finitely many values.
+    """Sentence on the values of one model that no measurement with these inputs and outputs
+    determines; "" where each parameter is determined, at least up to finitely many values.
 
     It is said before a model is called distinguishable: that its structure shows does not mean
     that its values do.
@@ -109,7 +109,9 @@ def _the_same(verdict: Verdict, what: str, everywhere: bool) -> str:
 
 
 def _not_known(verdict: Verdict, what: str) -> str:
-    """What an undecided verdict leaves to who measures, and what may decide after all."""
+    """Sentence on the consequences of an undecided verdict for a measurement, and on what may
+    decide after all.
+    """
     said = f"Not known: a measurement may or may not tell {verdict.left} and {verdict.right} apart."
     if verdict.notes[:1] and verdict.notes[0].startswith(open_note("")):
         return (

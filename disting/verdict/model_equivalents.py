@@ -62,7 +62,7 @@ class ModelEquivalent(NotebookTable):
 
     @property
     def sets(self) -> tuple[str, list[tuple[Domain, Mapping[str, object]]]]:
-        """How many sets of values there are, and those that are known, each with its domain."""
+        """Number of sets of values, and the known sets, each with its domain."""
         if self.synthesis is not None:
             return self.synthesis.extent, [(Domain.POSITIVE, x) for x in self.synthesis.sets]
         if self.values is None:

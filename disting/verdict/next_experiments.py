@@ -1,5 +1,5 @@
-"""What to measure next: every experiment of the menu on a group of structures, and the cheapest
-sets of them that settle it.
+"""Next measurements: every experiment of the menu on a group of structures, and the cheapest sets
+of them that distinguish all.
 
 A set is taken from the tables of its single experiments, which is safe: more experiments never make
 a pair less distinguishable. Two things at one mass of the one structure are at one mass of the
@@ -71,7 +71,7 @@ class Menu(NotebookTable, Generic[S]):
 
     @property
     def place(self) -> str:
-        """What the places are called: "mass", "node" or "compartment"."""
+        """Word for a place: "mass", "node" or "compartment"."""
         return PLACES[self.structures[0].sort]
 
     def places(self, structure: int) -> tuple[int, ...]:
@@ -80,7 +80,7 @@ class Menu(NotebookTable, Generic[S]):
 
     @property
     def kinds(self) -> tuple[Kind, ...]:
-        """What can be done, cheapest first."""
+        """Possible kinds, cheapest first."""
         return tuple(sorted(self.tables, key=self.costs.cost))
 
     def items(self, structure: int) -> Iterator[Item]:
@@ -96,7 +96,7 @@ class Menu(NotebookTable, Generic[S]):
         return tuple(k for k in range(len(self.structures)) if k != structure)
 
     def answer(self, structure: int, item: Item, other: int) -> Answer:
-        """Whether the item tells the structure from another one."""
+        """Decide whether the item distinguishes the structure from another one."""
         return self.tables[item.kind].answer((structure, item.at), other)
 
     def whole(self, structure: int, item: Item) -> Answer:
@@ -109,7 +109,7 @@ class Menu(NotebookTable, Generic[S]):
         return Answer.UNKNOWN if answers == {Answer.UNKNOWN, Answer.NEVER} else Answer.DEPENDS
 
     def anywhere(self, kind: Kind) -> bool:
-        """Whether this kind tells all structures apart, wherever it is done."""
+        """Return True if this kind distinguishes all structures, at any place."""
         spots = [
             (k, item)
             for k in range(len(self.structures))
@@ -152,7 +152,9 @@ class Menu(NotebookTable, Generic[S]):
         return Option(items, cost, tuple(left))
 
     def _may_be(self, structure: int, items: Sequence[Item], other: int) -> bool:
-        """Whether some places in the other structure are not excluded by any of the items."""
+        """Return True if some places in the other structure are not excluded by any of the
+        items.
+        """
         places = [self.tables[i.kind].alike((structure, i.at), other) for i in items]
         if len(items) == 1:
             return bool(places[0])

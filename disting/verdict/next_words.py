@@ -1,4 +1,4 @@
-"""What to measure next, in words, as rows and as plain data."""
+"""Next measurements, in words, as rows and as plain data."""
 
 from collections.abc import Iterator
 from itertools import product
@@ -49,7 +49,7 @@ def left_over(further: AnyMenu, structure: int, item: Item) -> dict[int, tuple[i
 
 
 def in_words(further: AnyMenu, structure: int, item: Item) -> str:
-    """What an item tells, for somebody who has this structure in mind."""
+    """Result of an item in words, if this structure is assumed."""
     gain = further.tables[item.kind].gain((structure, item.at))
     if not item.is_worth(gain):
         return NOTHING[gain] if further.place == "mass" or gain is Gain.REPEATS else UNSEEN
@@ -100,8 +100,8 @@ def anywhere(further: AnyMenu) -> str:
 
 
 def group_in_words(further: AnyMenu) -> str:
-    """How many experiments tell the structures of a group apart: one anywhere, one at the right
-    place, or two.
+    """Number of experiments that distinguish the structures of a group: one anywhere, one at the
+    right place, or two.
 
     >>> from disting.catalogs.next_files import next_catalog
     >>> group_in_words(next_catalog(3, damped=True).further((9, 10)))
@@ -199,7 +199,7 @@ def _why(further: AnyMenu, structure: int, option: Option) -> str:
 def _only(
     further: AnyMenu, structure: int, item: Item, relation: Relation
 ) -> dict[int, tuple[int, ...]]:
-    """What is left over because of this relation."""
+    """Structures that remain because of this relation."""
     table, spot = further.tables[item.kind], (structure, item.at)
     left = {
         k: tuple(j for j in masses if table.look_up(spot, (k, j))[0] is relation)

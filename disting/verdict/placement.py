@@ -63,10 +63,10 @@ def place(
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Placement:
-    """What this kind of experiment leaves together of structures that are indistinguishable, over
-    complex parameters, as they are measured now: chains of one size, or networks of one sort; of
-    both at once chains are taken as networks. Raises InputError for too many networks, and for
-    transfer functions that grow too large.
+    """Find the classes that this kind of experiment leaves of structures that are
+    indistinguishable, over complex parameters, in the present measurement: chains of one size, or
+    networks of one sort; mixed, chains are taken as networks. Raises InputError for too many
+    networks, and for transfer functions that grow too large.
     """
     chains = [s for s in structures if isinstance(s, Chain)]
     if len(chains) == len(structures):
@@ -221,7 +221,7 @@ class _Work:
             self.links[first] = self.links[s] = f"{rule}/{first}"
 
     def finished(self) -> SpotClasses:
-        """What was found; classes are numbered as they come."""
+        """Result; classes are numbered in the order of their first member."""
         root = self.buckets.classes.root
         roots = [root(s) for s in range(len(self.sides))]
         number = {r: k for k, r in enumerate(dict.fromkeys(roots))}

@@ -1,5 +1,5 @@
-"""What one kind of further experiment leaves together of structures that one measurement cannot
-tell apart, as it is found (`placement`), shipped and looked up.
+"""Classes that one kind of further experiment leaves of structures that one measurement cannot
+distinguish: as computed (`placement`), shipped and looked up.
 """
 
 from collections.abc import Sequence, Set
@@ -26,7 +26,7 @@ CERTAIN = (REPEATS, *(c.rule.name for c in NECESSARY if c.of_degrees))  # nothin
 
 
 class Decided(Protocol):
-    """What is decided of spots, by their numbers."""
+    """Decisions on spots, by their numbers."""
 
     def only(self, spots: Sequence[int]) -> "Decided":
         """Some of the spots, in this order."""
@@ -35,13 +35,13 @@ class Decided(Protocol):
         """Relation and deciding rule of two spots, "" if undecided."""
 
     def grade(self, a: int, b: int) -> Grade | tuple[str, int]:
-        """How sure that is: the certainty, and e where what is said is wrong with a probability of
-        2**-e at most; "" and 0 of what is undecided.
+        """Certainty of the relation, and e where it is wrong with a probability of 2**-e at most;
+        "" and 0 if it is undecided.
         """
 
 
 def answer_of(relations: Set[Relation]) -> Answer:
-    """What the relations to all places of another structure come to."""
+    """Combine the relations to all places of another structure."""
     if relations <= {Relation.DISTINGUISHABLE}:
         return Answer.SURELY
     if relations == {Relation.INDISTINGUISHABLE}:
@@ -127,7 +127,7 @@ class SpotPairs:
 
 @dataclass(frozen=True)
 class Placement:
-    """What one kind of experiment leaves together, spot against spot.
+    """Result of one kind of experiment, spot against spot.
 
     `places[k]`: masses or nodes of structure k; `gains[s]`: what is gained at spot s, structure by
     structure and place by place; `decided` of them.
@@ -148,7 +148,7 @@ class Placement:
 
     @cached_property
     def _alike(self) -> dict[tuple[Spot, int], tuple[int, ...]]:
-        """What was asked for: pairs of experiments ask for each of them again and again."""
+        """Cache of answers: pairs of experiments request each of them repeatedly."""
         return {}
 
     def only(self, structures: Sequence[int]) -> "Placement":
@@ -159,7 +159,7 @@ class Placement:
         return replace(self, places=places, gains=gains, decided=self.decided.only(at))
 
     def gain(self, spot: Spot) -> Gain:
-        """What is gained there."""
+        """Gain at the spot."""
         return self.gains[self._at[spot]]
 
     def look_up(self, left: Spot, right: Spot) -> tuple[Relation, str]:
@@ -184,7 +184,7 @@ class Placement:
         return self._alike[spot, other]
 
     def answer(self, spot: Spot, other: int) -> Answer:
-        """Whether the experiment at a spot tells its structure from another one, wherever the
-        place is in that.
+        """Decide whether the experiment at a spot distinguishes its structure from another one, for
+        every place in that.
         """
         return answer_of({self.look_up(spot, (other, j))[0] for j in self.places[other]})

@@ -1,6 +1,6 @@
-"""Whether further experiments tell two machines apart, chains or networks, where it is not known
-which mass of the one is which of the other: every way to place them is asked. A file of it holds a
-verdict for every way, each a whole file of its own.
+"""Verdicts on two machines under further experiments, chains or networks, where the correspondence
+of masses is unknown: every correspondence is decided. A file of it holds a verdict for every way,
+each a whole file of its own.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -38,8 +38,8 @@ Pairs = tuple[tuple[Experiment, Experiment], ...]
 
 
 class Answer(StrEnum):
-    """Whether the experiments tell the models apart: wherever the places are, nowhere, or
-    depending on them; UNKNOWN where what is undecided could make a difference.
+    """Answer for all placements: the experiments distinguish the models for all, for none, or for
+    some of them; UNKNOWN where an undecided one could make a difference.
     """
 
     SURELY = "surely"
@@ -61,7 +61,7 @@ class AllPlacements:
 
     @property
     def answer(self) -> Answer:
-        """Whether they tell the models apart."""
+        """Combined answer of all placements."""
         relations = {verdict.relation for _, verdict in self.verdicts}
         if relations == {Relation.DISTINGUISHABLE}:
             return Answer.SURELY
@@ -169,7 +169,7 @@ def read_everywhere(data: Mapping[str, Any]) -> tuple[StoredVerdict, ...]:
 
 
 def difference_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdict]) -> str:
-    """What such a file tells otherwise than what it tells follows from; "" if nothing.
+    """First statement of such a file that does not follow from its evidence; "" if there is none.
 
     All verdicts are on the same models, asked in the same way, and there is one for every way to
     place the experiments.

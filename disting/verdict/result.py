@@ -65,7 +65,7 @@ class Step:
 
     @property
     def relation(self) -> Relation:
-        """What this finding alone decides."""
+        """Relation that this finding alone decides."""
         return PROVES[self.finding.rule.role].get(self.finding.outcome, Relation.UNDECIDED)
 
 
@@ -137,7 +137,7 @@ class Verdict(NotebookTable):
 
     @property
     def sure(self) -> str:
-        """How sure it is, in words; "" if undecided.
+        """Certainty in words; "" if undecided.
 
         >>> from disting import compare
         >>> compare("3:1", "3:11").sure, compare("3:1", "3:2").sure
@@ -149,8 +149,8 @@ class Verdict(NotebookTable):
 
     @property
     def has_exceptions(self) -> bool:
-        """Whether special values, a set of measure zero, are left out: what decides models that
-        are indistinguishable says nothing of them.
+        """True if special values, a set of measure zero, are excepted: the rule that decides
+        indistinguishable models does not cover them.
         """
         if self.relation is not Relation.INDISTINGUISHABLE or self.evidence is None:
             return False
@@ -184,7 +184,7 @@ class Verdict(NotebookTable):
 
     @property
     def rule(self) -> str:
-        """What decided, in words; "" if nothing did."""
+        """Deciding rule in words; "" if there is none."""
         if not self.decided_by:
             return ""
         rule = RULES[self.decided_by]
@@ -196,7 +196,9 @@ class Verdict(NotebookTable):
 
     @property
     def proves_shares(self) -> bool:
-        """Whether the evidence itself tells which positive models have positive equivalents."""
+        """True if the evidence itself states the share of positive models with positive
+        equivalents.
+        """
         return isinstance(self.evidence, BothWays)
 
     def to_dict(self) -> dict[str, object]:
@@ -249,7 +251,7 @@ class Verdict(NotebookTable):
 
 
 def open_note(reason: str) -> str:
-    """What is said of a pair that is open over admissible parameters only."""
+    """Note on a pair that is open over admissible parameters only."""
     return f"over complex parameters they are indistinguishable; {reason}"
 
 
@@ -283,8 +285,8 @@ ALL_CONDITIONS = tuple(name for name, rule in RULES.items() if rule.is_condition
 
 
 class View(StrEnum):
-    """Which representations may decide: `combined` is the paper's, all conditions; `exact` adds
-    the exact decision.
+    """Selection of the representations that may decide: `combined` is the paper's, all conditions;
+    `exact` adds the exact decision.
 
     All of them are over complex parameters. `real` and `positive` are `exact`, and then look
     whether equivalents with such parameters exist; `positive` is what is meant where nothing is
@@ -317,8 +319,8 @@ class View(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """What may be used to decide: the view, the conditions' names, the number of Markov parameters
-    (0 = all).
+    """Settings of a decision: the view, the conditions' names, the number of Markov parameters (0 =
+    all).
 
     `inclusion`: after the exact decision, say also whose models lie in the other's closure and
     which positive models have positive equivalents; this is most of the work.
@@ -354,14 +356,12 @@ class Query:
         return f"Query({', '.join(options)})"
 
     def asks(self, rule: Rule) -> bool:
-        """Whether this condition may decide."""
+        """Return True if this condition may decide."""
         return rule.name in self.conditions
 
     @property
     def tells_inclusion(self) -> bool:
-        """Whether verdicts say whose models have equivalents on the other side: not in the
-        paper's views.
-        """
+        """True if verdicts include the inclusions: not in the paper's views."""
         return self.inclusion and Stage.FIBRE in self.view.representations
 
     def count(self, n_states: int) -> int:

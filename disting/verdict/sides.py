@@ -76,8 +76,8 @@ def _of_state_space(matrices: tuple[object, ...]) -> AnyModel:
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """What is compared: both models by the names that they have beside each other, and what is to
-    be known of experiments that tell nothing.
+    """Two compared sides: both models with the names used in this comparison, and notes on
+    experiments without information.
     """
 
     left: AnySide
@@ -187,7 +187,7 @@ def plain_sides(
 
 
 def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, str]:
-    """What two models are called beside each other."""
+    """Names of two models in a comparison."""
     if isinstance(left, Chain) and isinstance(right, Chain):
         return names_of(left, right)
     left_name, right_name = map(name_of_model, (left, right))
@@ -199,14 +199,15 @@ def names_beside(left: Chain | AnyModel, right: Chain | AnyModel) -> tuple[str, 
 
 
 def name_of_model(model: Chain | AnyModel) -> str:
-    """What a model is called alone."""
+    """Name of a single model."""
     return name_of(model) if isinstance(model, Chain) else model.name
 
 
 def names_under(
     left: str, right: str, experiments: Sequence[tuple[Experiment, Experiment]]
 ) -> tuple[str, str]:
-    """What two chains are called under experiments: one and the same chain by those that differ.
+    """Names of two chains under experiments: the same chain gets the names of experiments that
+    differ.
 
     >>> names_under("3:1", "3:1", [(Experiment(sensor=2), Experiment(sensor=3))])
     ('3:1 with sensor 2', '3:1 with sensor 3')
@@ -219,7 +220,7 @@ def names_under(
 
 
 def _done(experiment: Experiment) -> str:
-    """What is done in it."""
+    """Changes of the experiment in words."""
     return experiment.text if experiment != Experiment() else "nothing done"
 
 

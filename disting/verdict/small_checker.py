@@ -31,7 +31,7 @@ class SecondOpinion:
 
     @property
     def text(self) -> str:
-        """What it says, in one line.
+        """Its findings in one line.
 
         >>> SecondOpinion(("counts",), (), ()).text
         'counts: computed again'

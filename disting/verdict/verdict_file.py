@@ -45,9 +45,9 @@ Places = Sequence[Experiment | tuple[Experiment, Experiment]]
 
 @dataclass(frozen=True, slots=True)
 class StoredVerdict:
-    """What a file says: two models, the experiments on the left and on the right one (none: as they
-    are), what was asked with which settings, the verdict, and that over complex parameters where it
-    is told apart.
+    """Content of a file: two models, the experiments on the left and on the right one (none: as
+    given), the query and settings, the verdict, and that over complex parameters where it is
+    separate.
     """
 
     models: tuple[Chain | AnyModel, Chain | AnyModel]
@@ -58,7 +58,7 @@ class StoredVerdict:
     over_complex: Verdict | None
 
     def sides(self, engine: Engine) -> Sides:
-        """What was compared."""
+        """Two compared sides of the file."""
         return sides_of(*self.models, self.experiments, engine)
 
 
@@ -129,7 +129,7 @@ def _compared(verdict: Verdict) -> Verdict:
 
 
 def has_more(verdict: Verdict) -> bool:
-    """Whether equality over complex parameters belongs to what a verdict over others says."""
+    """Return True if a verdict over other parameters includes the equivalence over complex ones."""
     is_open = verdict.closure is Inclusion.EQUAL or verdict.relation is not Relation.DISTINGUISHABLE
     return verdict.domain is not Domain.COMPLEX and is_open
 
@@ -165,8 +165,8 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
 
 
 def difference(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> str:
-    """What a file tells otherwise than what it tells follows from, such as its sentence; "" if
-    nothing. `sides` are what its models are, beside each other.
+    """First statement of a file that does not follow from its evidence, such as its sentence; "" if
+    there is none. `sides` are what its models are, beside each other.
     """
     again = as_file(stored)
     if data.get("format") == UNPRIMED:
@@ -206,7 +206,9 @@ def _plain_field(value: object) -> object:
 
 
 def same_plain(stored: object, again: object) -> bool:
-    """Whether both are the same plain data: tuples are lists, names of enumerations texts."""
+    """Return True if both are the same plain data: tuples are lists, names of enumerations
+    texts.
+    """
     if isinstance(again, dict):
         return (
             isinstance(stored, dict)

@@ -46,7 +46,7 @@ WANTED = "a file of a verdict, as 'disting compare N:I M:J --json' writes it"
 
 
 class Status(StrEnum):
-    """Whether a verdict holds, as far as its file shows."""
+    """Result of the check of a verdict, as far as its file shows."""
 
     HOLDS = "holds"
     FAILS = "does not hold"
@@ -55,7 +55,7 @@ class Status(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """What was found, and why it is not "holds".
+    """Result of a check, and the reason if it is not "holds".
 
     `verdicts`: the sentences of the verdicts, none where one does not hold; `models`: whose models
     they are on; `found_again`: what was checked; `as_written`: what the file says and no check can
@@ -101,7 +101,7 @@ class Verification:
 
 
 def verify(verdict: dict[str, Any] | str | Path) -> Verification:
-    """Whether a verdict holds: plain data of `verdict_file` or of
+    """Check whether a verdict holds: plain data of `verdict_file` or of
     `placement_verdicts.everywhere_file`, or the file with it as JSON.
 
     Raises InputError for what is no file of a verdict, or is damaged.
@@ -121,7 +121,7 @@ def verify(verdict: dict[str, Any] | str | Path) -> Verification:
 
 
 def _verified_file(data: Any) -> Verification:
-    """What is found in a file of one verdict, or of one for every place."""
+    """Verify a file of one verdict, or of one for every place."""
     if not isinstance(data, dict) or data.get("format") != EVERYWHERE:
         return _verified(data, read_file(data))
     stored = read_everywhere(data)
@@ -147,7 +147,7 @@ def _verified_file(data: Any) -> Verification:
 
 
 def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
-    """What all checks find; those that take too long leave it open, if nothing is wrong."""
+    """Combine all checks; those that take too long leave it open, if nothing is wrong."""
     unseen, seen = list[str](), list[str]()
     written = [
         f"the settings that choose the random points (seed {short(stored.settings.seed)})",
@@ -197,7 +197,7 @@ def _whose(stored: StoredVerdict, sides: Sides) -> str:
 
 
 def _kind_of(name: str, model: Chain | AnyModel) -> str:
-    """What the name of a model is; a chain without a number is named by its indices."""
+    """Type of a model's name; a chain without a number is named by its indices."""
     if isinstance(model, Chain):
         return "a chain without a number" if name.startswith("(") else NUMBERED
     return FREE_NAMES if naming_of_model(model) is Naming.FREE else "as denoted by the notation"

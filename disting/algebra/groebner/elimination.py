@@ -52,7 +52,7 @@ class Basis:
 
     @property
     def is_one(self) -> bool:
-        """Whether the ideal is everything: no common zeros, over any extension field."""
+        """True if the ideal is the whole ring: no common zeros, over any extension field."""
         return any(row.codes[0] == 0 for row in self.rows)
 
 
@@ -272,8 +272,8 @@ def _lcm(order: Order, a: tuple[int, ...], b: tuple[int, ...]) -> int:
 
 
 def _superfluous(work: _Work, pair: tuple[int, int, int], exponents: tuple[int, ...]) -> bool:
-    """Whether the least common multiples of the new monomial with both of the pair are other
-    ones than the pair's.
+    """Return True if the least common multiples of the new monomial with both monomials of the pair
+    differ from the pair's own.
     """
     lcm, i, j = pair
     return all(_lcm(work.order, exponents, work.leads[k]) != lcm for k in (i, j))

@@ -107,7 +107,7 @@ class Order:
         return code >> (FIELD * (2 * self.size - 1))
 
     def divides(self, divisor: int, code: int) -> bool:
-        """Whether the first monomial divides the second."""
+        """Return True if the first monomial divides the second."""
         guard, mask = self.guard, self.mask
         return (((code & mask) | guard) - (divisor & mask)) & guard == guard
 

@@ -20,7 +20,7 @@ COMMAND = "from disting.algebra.groebner.own_process import serve; serve()"
 
 
 class End(StrEnum):
-    """How a task ended."""
+    """Outcome of a task."""
 
     DONE = "done"
     OUT_OF_TIME = "out of time"
@@ -87,7 +87,7 @@ def run_limited(
 
 
 def serve() -> None:
-    """What the fresh process does: read a task from its input, write how it ended to its output."""
+    """Run in the fresh process: read a task from the input, write its outcome to the output."""
     with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as answer:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what a task prints is no answer
         seconds, megabytes = pickle.load(sys.stdin.buffer)

@@ -56,7 +56,7 @@ class Basis:
 
     @property
     def is_one(self) -> bool:
-        """Whether there is no zero, complex ones included."""
+        """True if there is no zero, not even a complex one."""
         return any(p.is_constant() for p in self.polynomials)
 
     @cached_property

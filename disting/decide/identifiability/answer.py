@@ -1,5 +1,5 @@
-"""What is said about one chain: how many parameters can be determined, how many sets of them
-fit, what can be determined.
+"""Identifiability of one chain: number of parameters that can be determined, number of sets that
+fit, determinable functions.
 
 It is read from plain data, as a cache or a file keeps it.
 """
@@ -124,12 +124,12 @@ class Identifiability(NotebookTable):
 
     @property
     def real(self) -> int:
-        """How many of the parameter vectors listed at the random point are real."""
+        """Number of real ones among the parameter vectors listed at the random point."""
         return sum(a.real is Answer.YES for a in self.alternatives)
 
     @property
     def positive(self) -> int:
-        """How many of them are positive."""
+        """Number of positive ones among them."""
         return sum(a.positive is Answer.YES for a in self.alternatives)
 
     def to_dict(self) -> dict[str, object]:
@@ -200,7 +200,7 @@ def _over_complex(answer: Identifiability) -> str:
 
 
 def _count(answer: Identifiability) -> str:
-    """How many vectors, complex ones included unless all are positive."""
+    """Number of vectors, complex ones included unless all are positive."""
     if answer.most is None:
         return f"at least {_number(answer.least)} positive parameter vectors"
     if answer.most > answer.least:

@@ -23,14 +23,16 @@ ANSWERS = {
 
 
 def is_settled(found: Identifiability) -> bool:
-    """Whether theorems alone tell the solutions over each domain: one, or all of them positive."""
+    """Return True if theorems alone give the solutions over each domain: one, or all of them
+    positive.
+    """
     if found.level is Level.NOT:
         return all(c.unique is Answer.YES for c in found.singles)
     return found.level is Level.GLOBAL or _is_by_theorem(found)
 
 
 def _is_by_theorem(found: Identifiability) -> bool:
-    """Whether all vectors exist by theorems, which make them positive."""
+    """Return True if all vectors exist by theorems, which make them positive."""
     theorems = all(a.certainty is Certainty.THEOREM for a in found.alternatives)
     return theorems and found.least == found.most
 

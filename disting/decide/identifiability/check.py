@@ -18,8 +18,8 @@ POINTS = 3
 
 
 def confirms(answer: Identifiability, chain: Chain, seed: str = "verify") -> bool:
-    """Whether the ranks, the combinations, the symmetries and the number of solutions are true of
-    the chain.
+    """Return True if the ranks, the combinations, the symmetries and the number of solutions hold
+    for the chain.
 
     >>> from disting.decide.identifiability.analysis import identifiability
     >>> confirms(identifiability(Chain(3, meas_plus=2)), Chain(3, meas_plus=2))

@@ -60,7 +60,7 @@ class Solutions:
 
     @property
     def are_exchanges(self) -> bool:
-        """Whether all vectors are exchanges of one of them."""
+        """True if all vectors are exchanges of one of them."""
         return self.most == self.order
 
     def to_dict(self) -> dict[str, Any]:
@@ -110,7 +110,7 @@ class Counted(Protocol):
 
     @property
     def varies(self) -> bool:
-        """Whether these are proven to hold on open sets."""
+        """True if these numbers are proven to hold on open sets."""
 
 
 def count_in_words(found: Counted) -> str:
@@ -195,12 +195,12 @@ def _merge(found: "ParameterIdentifiability", solutions: Solutions) -> "Paramete
 
 
 def is_complex(solutions: Solutions) -> bool:
-    """Whether these are the solutions over complex parameters."""
+    """Return True if these are the solutions over complex parameters."""
     return solutions.domain is Domain.COMPLEX
 
 
 def _adds(solutions: Solutions) -> bool:
-    """Whether anything rests on more than exact identities."""
+    """Return True if the result rests on more than exact identities."""
     return solutions.certainty is Certainty.BOUNDED
 
 

@@ -173,7 +173,9 @@ class Local:
 
 
 def local(model: Model, settings: Settings) -> Local:
-    """What the coefficients tell at as many independent points as a bound needs."""
+    """Local identifiability from the coefficients, at as many independent points as a bound
+    needs.
+    """
     names, size = model.parameters, model.minor_size(None)
     points = enough(size, settings.points)
     seen = list(samples(model, Representation.TF, 0, points, settings.seed))

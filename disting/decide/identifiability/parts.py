@@ -1,4 +1,4 @@
-"""What a finding on identifiability is made of, and the functions of the parameters in it.
+"""Parts of a finding on identifiability, and the functions of the parameters in it.
 
 They are few terms long and are differentiated by hand (d p^a = a p^a/p_i).
 """
@@ -211,5 +211,5 @@ class Combination:
 
     @property
     def is_named(self) -> bool:
-        """Whether it is a coefficient whose formula is too long to read."""
+        """True if it is a coefficient whose formula is too long to read."""
         return bool(self.name) and len(self.formula.terms) > MOST_TERMS

@@ -98,7 +98,7 @@ def _plain(chain: Chain) -> Chain:
 
 
 def _many(chain: Chain) -> bool:
-    """Whether a theorem counts more solutions than anyone wants to see."""
+    """Return True if a theorem counts more solutions than it is useful to list."""
     return (foster_count(chain) or 0) > MOST_LISTED
 
 
@@ -146,7 +146,7 @@ def renamings(chain: Chain) -> tuple[Renaming, ...]:
 
 
 def is_self_dual(chain: Chain) -> bool:
-    """Whether the duality theorem leads from the chain to itself, with other parameters."""
+    """Return True if the duality theorem maps the chain to itself, with other parameters."""
     return chain.n_masses > 1 and are_dual(_plain(chain), _plain(chain))
 
 

@@ -52,7 +52,7 @@ class Tangent:
         return int(matrix(rows, len(columns), self.modulus).rank()) if columns else 0
 
     def sees(self, gradient: Sequence[int]) -> bool:
-        """Whether the gradient lies in the row space."""
+        """Return True if the gradient lies in the row space."""
         return not any(_dot(gradient, v) % self.modulus for v in self.kernel)
 
 

@@ -76,8 +76,8 @@ def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
 
 
 def compute(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
-    """What takes longer, for a chain with fewer masses on the left: its poles against
-    inclusion, a fibre of limits for it.
+    """Compute the finding that takes longer, for a chain with fewer masses on the left: its poles
+    against inclusion, a fibre of limits for it.
     """
     label = about(f"{settings.seed}:poles", small, large)
     points = excluding_points(small, large, label) if fewer_poles(small, large) else ()
@@ -102,7 +102,7 @@ def compute(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
 
 
 def show_inclusion(small: Chain, large: Chain, left_is_larger: bool) -> Limit | Meeting | None:
-    """What shows that the smaller chain is a limit of the larger one; None if nothing."""
+    """Evidence that the smaller chain is a limit of the larger one; None if there is none."""
     if exceeds(small, large) or small.dead_time > large.dead_time:
         return None
     limits = next(row_limits(small, large, counting=False), None)
@@ -152,8 +152,8 @@ def row_limits(small: Chain, large: Chain, *, counting: bool) -> Iterator[tuple[
 
 
 def refute(small: ChainSide, large: ChainSide, left_is_larger: bool) -> InclusionFinding | None:
-    """What degrees and ranks say against the inclusion of a chain with fewer poles; None if
-    nothing.
+    """Finding of degrees and ranks against the inclusion of a chain with fewer poles; None if there
+    is none.
     """
     first, second = small.view.form, large.view.form
     if exceeds(first, second):
@@ -172,7 +172,7 @@ def exceeds(small: Chain, large: Chain) -> bool:
 
 
 def fewer_poles(small: Chain, large: Chain) -> bool:
-    """Whether the larger chain cannot lie in the smaller one."""
+    """Return True if the larger chain cannot be contained in the smaller one."""
     return degrees_of(small)[1] < degrees_of(large)[1]
 
 

@@ -56,8 +56,8 @@ ClosureProof = tuple[Task, Proof | None]
 
 
 def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsInside, int] | None:
-    """What the rows tell about limits, with the bits of its error bound (0: proven); None if
-    nothing.
+    """Result of the rows on limits, with the bits of its error bound (0: proven); None if there is
+    none.
 
     >>> end, next_to_end = (Chain(3, 0, 0, 1, 0, mass, damped=True) for mass in (3, 2))
     >>> of_closure(end, next_to_end, "doc")[0].steps[0].why
@@ -87,8 +87,8 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
 
 
 def _against(splits: Sequence[Sequence[ClosureProof]], seed: str) -> list[Proof] | None:
-    """What refutes one row of every split, by ideals only where nothing else does; None if a split
-    has no such row.
+    """Refutations of one row of every split, by ideals only where nothing else refutes it; None if
+    a split has no such row.
     """
     refuted = [
         next(
@@ -112,8 +112,8 @@ def _against(splits: Sequence[Sequence[ClosureProof]], seed: str) -> list[Proof]
 
 
 def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) -> bool:
-    """Whether the steps are those of all rows of one split, or of one row of every split, and
-    each of them holds again.
+    """Return True if the steps are those of all rows of one split, or of one row of every split,
+    and each of them holds again.
     """
     structure, other = (
         replace(c, sensor=Sensor.POSITION, dead_time=False).structure for c in (small, large)
@@ -144,14 +144,14 @@ def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) ->
 
 
 def _alike(structure: Structure, other: Structure) -> bool:
-    """Whether both are plain, of one size and damping."""
+    """Return True if both are plain and have the same size and damping."""
     kinds = [(s.n_masses, power(s)) for s in (structure, other)]
     return is_plain(structure) and is_plain(other) and kinds[0] == kinds[1]
 
 
 def _covered(structure: Structure, other: Structure, label: str) -> bool:
-    """Whether no other splits are possible: the theorem of `splits` applies, or the larger chain
-    is one row.
+    """Return True if no other splits are possible: the theorem of `splits` applies, or the larger
+    chain is one row.
     """
     return gap(other) == 0 or (
         has_relation(receptances(other), power(other)) and poles_are_inseparable(structure, label)

@@ -50,8 +50,8 @@ PLAIN_MONOMIALS = 1500  # that plain elimination bears for a catalogue
 
 
 def confirms(evidence: InclusionEvidence, left: ChainSide, right: ChainSide) -> bool:
-    """Whether the evidence is true of the two chains, at fresh points, and speaks of the one with
-    fewer masses, or of as many of the one of smaller rank.
+    """Return True if the evidence holds for the two chains, at fresh points, and refers to the one
+    with fewer masses or, for equal sizes, the one of smaller rank.
 
     A fibre is computed again. The ranks of the two models are taken from their profiles.
     """
@@ -86,7 +86,7 @@ def check_missing(evidence: MissingElements, left: ChainSide, right: ChainSide) 
 
 
 def check_dead_time(evidence: DeadTime, left: ChainSide, right: ChainSide) -> bool:
-    """Which of them has one."""
+    """Return True if exactly one of them, the stated one, has a dead time."""
     dead_times = (left.chain.dead_time, right.chain.dead_time)
     return dead_times == (evidence.left_given, not evidence.left_given)
 
@@ -135,7 +135,7 @@ def _fresh() -> Witness:
 
 
 def _found_again(evidence: OfFibre, a: Chain, b: Chain) -> bool:
-    """What the fibre of the given model, or its rows, say: computed again."""
+    """Recompute the result of the fibre of the given model, or of its rows."""
     fresh = _fresh()
     match evidence:
         case Outside() | RowsInside():
@@ -153,8 +153,8 @@ def _found_again(evidence: OfFibre, a: Chain, b: Chain) -> bool:
 
 
 def check_across_sizes(evidence: AcrossSizes | Counts, left: ChainSide, right: ChainSide) -> bool:
-    """Whether the evidence is true of two chains of different sizes; ranks are taken from their
-    profiles, counts made at fresh points.
+    """Return True if the evidence holds for two chains of different sizes; ranks are taken from
+    their profiles, counts made at fresh points.
     """
     if left.chain.n_masses == right.chain.n_masses:
         return False
@@ -196,7 +196,7 @@ def _twin(chain: Chain, indices: tuple[int, ...]) -> Chain | None:
 
 
 def _follow(limits: tuple[RowLimit, ...], small: Chain, large: Chain) -> bool:
-    """Whether these are all rows of the smaller chain, made from different rows of the
+    """Return True if these are all rows of the smaller chain, made from different rows of the
     larger one.
     """
     wanted, rows = canonical_rows(small.structure), canonical_rows(large.structure)
@@ -220,13 +220,13 @@ def _leads(limit: RowLimit, row: Row, target: Row) -> bool:
 
 
 def _is_large(evidence: Refutation, a: Chain, b: Chain) -> bool:
-    """Whether plain elimination has too many monomials to bear."""
+    """Return True if plain elimination has too many monomials."""
     unknowns = max(len(coefficient_map(rational_part(c)).parameters) for c in (a, b))
     return comb(unknowns + 1 + evidence.degree, evidence.degree) > PLAIN_MONOMIALS
 
 
 def _refuted_again(a: Chain, b: Chain, evidence: Refutation) -> bool:
-    """Whether the decision is the same at fresh points and primes."""
+    """Return True if the decision is the same at fresh points and primes."""
     coordinates = normalise if evidence.is_normalised else coefficient_map
     chain, other = (
         coordinates(rational_part(c)) for c in ((a, b) if evidence.left_given else (b, a))
@@ -258,7 +258,7 @@ def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
 
 
 def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
-    """Whether all invariants but the free ones have the same values in both chains at fresh
+    """Return True if all invariants but the free ones have the same values in both chains at fresh
     points, absent ones zero.
     """
     seen = [
@@ -274,9 +274,9 @@ def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
 
 
 def _fall_apart(small: Chain, large: Chain, small_rank: int, large_rank: int) -> bool:
-    """Whether, written out, the first one's relative degree is `small_rank` at least, the second
-    one's always `large_rank`, smaller; or the first one's `small_rank`, the second one's never
-    below `large_rank`, larger.
+    """Return True if in the expanded transfer functions the first one's relative degree is
+    `small_rank` at least, the second one's always `large_rank`, smaller; or the first one's
+    `small_rank`, the second one's never below `large_rank`, larger.
 
     That is so if both leading coefficients are products of elements; or that of the denominator.
     """

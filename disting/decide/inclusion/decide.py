@@ -108,8 +108,8 @@ def by_rank(left: ChainSide, right: ChainSide) -> tuple[Chain, Chain]:
 
 
 def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
-    """What elements and profiles, or for chains of different sizes counts and limits, tell of
-    CLOSURE; None if nothing.
+    """Finding on CLOSURE from elements and profiles, or for chains of different sizes from counts
+    and limits; None if there is none.
     """
     finding: InclusionFinding | None = found_at_once(CLOSURE_CHAINS.at_once, left, right)
     return finding
@@ -156,7 +156,9 @@ def implied_image(
 def of_limits(
     left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
-    """What is no limit has no equivalent; limits of two sensor quantities are not asked for."""
+    """Finding on equivalents from the finding on limits, since a model that is not a limit has no
+    equivalent; limits for two sensor quantities are not considered.
+    """
     two_sensors = left.chain.sensor is not right.chain.sensor
     return closure if closure.inclusion is Inclusion.NEITHER or two_sensors else None
 
@@ -181,7 +183,7 @@ def of_two_sizes(
 
 
 def needs_ideals(image: InclusionFinding, closure: InclusionFinding) -> bool:
-    """Whether nothing at all is known of two chains that are compared in both senses."""
+    """Return True if nothing at all is known of two chains that are compared in both senses."""
     return (
         not image.is_known
         and not closure.is_known
@@ -294,7 +296,9 @@ def _asked(
 
 
 def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> Inclusions:
-    """What the fibre of an ideal says: a solution of limits, none of equivalents."""
+    """Inclusions that the fibre of an ideal proves: a solution proves limits, none refutes
+    equivalents.
+    """
     grade = Certainty.BOUNDED if safety else Certainty.PROVEN
     if membership is Membership.MEMBER:
         zeros = InclusionFinding(

@@ -66,8 +66,8 @@ def find_containment(small: Chain, large: Chain, seed: str) -> Containment | Non
 
 
 def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solutions) -> bool:
-    """Whether the limits hold and the solutions are solutions, for models of the smaller chain
-    or for ranks proven equal.
+    """Return True if the limits hold and the solutions are solutions, for models of the smaller
+    chain or for ranks proven equal.
     """
     target, rows_of_large = position(small), canonical_rows(large.structure)
     names = {name for name, _ in steps}
@@ -119,8 +119,8 @@ def _results(target: Structure, large: Chain) -> Iterator[tuple[RowSteps, tuple[
 
 
 def _fit(rows: Sequence[Row]) -> bool:
-    """Whether the model of these rows can be written: only the first one has a wall, and no
-    damper is left to the ground.
+    """Return True if the model of these rows can be written: only the first one has a wall, and no
+    damper to the ground remains.
     """
     return not any(row.grounded for row in rows[1:]) and not any(row.ground_dampers for row in rows)
 
@@ -138,14 +138,14 @@ def _holds(target: Structure, result: Structure, solved: Solutions) -> bool:
 
 
 def tells(solved: Solutions, target: Structure, result: Structure, seed: str) -> bool:
-    """Whether the solution shows that generic models of the target are among those that result,
-    or limits of them.
+    """Return True if the solution shows that generic models of the target are among the resulting
+    ones, or limits of them.
     """
     return solved.left_given or most_rank(target) <= least_rank(result, seed)
 
 
 def _follow(steps: RowSteps, rows: Sequence[Row], rows_by_name: dict[str, Row]) -> bool:
-    """Whether each of the limits is an identity."""
+    """Return True if each of the limits is an identity."""
     return all(
         row in follows(rows_by_name[name], path)
         for row, (name, path) in zip(rows, steps, strict=True)

@@ -69,7 +69,7 @@ class Room:
 
     @property
     def suffices(self) -> bool:
-        """Whether the dimensions add up."""
+        """True if the dimensions add up."""
         return self.factors > 0 and self.rank + self.factors + self.same_mass >= self.coordinates
 
 
@@ -83,7 +83,7 @@ def room(small: Structure, large: Structure, seed: str = "meeting") -> Room:
 
 
 def _fits(c: int, wanted: Powers, searched: Powers) -> bool:
-    """Whether s^c times the one has no other powers than the other."""
+    """Return True if s^c times the one has no other powers than the other."""
     return all({c + i for i in w} <= g for w, g in zip(wanted, searched, strict=True))
 
 
@@ -109,8 +109,8 @@ def _rank_at(structure: Structure, label: str) -> int:
 
 
 def _same_mass(small: Structure, large: Structure) -> bool:
-    """Whether both tell the mass of a free row in the same two pairs of coefficients, odd
-    powers of s among them.
+    """Return True if both determine the mass of a free row by the same two pairs of coefficients,
+    odd powers of s among them.
     """
     mine, theirs = powers(small), powers(large)
     alike = all(min(m) == min(t) and min(t) + 1 in t for m, t in zip(mine, theirs, strict=True))
@@ -118,8 +118,8 @@ def _same_mass(small: Structure, large: Structure) -> bool:
 
 
 def _keeps_momentum(structure: Structure) -> bool:
-    """Whether neither springs nor dampers tie the last row, on which the force acts, to the ground;
-    no lag.
+    """Return True if neither springs nor dampers connect the last row, on which the force acts, to
+    the ground, and there is no lag.
     """
     row = rows_of(structure)[-1]
     return not (row.grounded or row.ground_dampers or structure.lag)

@@ -1,4 +1,4 @@
-"""How two rows would share the poles of a smaller model: a refutation at one of its models.
+"""Distribution of the poles of a smaller model over two rows: a refutation at one of its models.
 
 Let G = l_1/D_1 + l_2/D_2 be the receptance of a chain with a gap, from its grounded and its free
 row, as functions of t = s, or of t = s^2 without dampers. The degrees are bounded: D_1 by A, l_1
@@ -73,7 +73,7 @@ class Bounds:
 
     @property
     def direct(self) -> bool:
-        """Whether the space of numerators keeps its dimension."""
+        """True if the space of numerators keeps its dimension."""
         return (
             min(self.factor, self.first, self.second)
             < self.poles - self.top_first - self.top_second
@@ -107,8 +107,8 @@ def excluding_points(small: Chain, large: Chain, label: str) -> Points:
 
 
 def excludes(small: Chain, large: Chain, label: str, points: Points) -> bool:
-    """Whether these parameters of the smaller chain refute its inclusion, all of them if there
-    is more than one.
+    """Return True if these parameters of the smaller chain refute its inclusion, all of them if
+    there is more than one.
     """
     count = len(accelerate(small).parameters)
     if (
@@ -232,8 +232,8 @@ def _solution(
 def _stands(
     solution: Solution, b: Bounds, shape: tuple[list[int], ...], equation: RowEquation | None
 ) -> bool:
-    """Whether a solution is not excluded by the equation of the grounded row, for want of one
-    or because x is not constant.
+    """Return True if the equation of the grounded row does not exclude a solution: there is none,
+    or x is not constant.
     """
     if equation is None or solution is None:
         return True

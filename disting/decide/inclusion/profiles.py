@@ -90,7 +90,7 @@ def without_dead_time(left_is_smaller: bool) -> InclusionFinding:
 
 
 def confirms_missing(evidence: MissingElements, left: Chain, right: Chain) -> bool:
-    """Whether the numbering makes the part of the whole, ports included."""
+    """Return True if the numbering makes the one a part of the other, ports included."""
     part, whole = (left, right) if evidence.left_is_part else (right, left)
     places = {i: at for at, i in evidence.numbering}
     ways = (all(places.get(i) == at for i, at in ports) for ports in _ways(part, whole))
@@ -111,7 +111,9 @@ def _ways(part: Chain, whole: Chain) -> Iterator[Ports]:
 def by_profiles(
     small: Profile, large: Profile, *, left_is_smaller: bool
 ) -> InclusionFinding | None:
-    """What degrees, ranks of projections and a full image settle; None if nothing."""
+    """Inclusion that degrees, ranks of projections and a full image prove; None if they prove
+    nothing.
+    """
     if exceed(small.degrees, large.degrees):
         counts = Counts(*order(small.degrees, large.degrees, left_is_smaller))
         return InclusionFinding(Inclusion.NEITHER, Certainty.PROVEN, evidence=counts)
@@ -136,8 +138,8 @@ def by_profiles(
 
 
 def exceed(small: Degrees, large: Degrees) -> bool:
-    """Whether a numerator or denominator has a larger degree than in any limit of the other model;
-    of several transfer functions one pair after the other, (-1, 0) for 0.
+    """Return True if a numerator or denominator has a larger degree than in any limit of the other
+    model; of several transfer functions one pair after the other, (-1, 0) for 0.
 
     >>> exceed((2, 2), (2, 3)), exceed((3, 3), (2, 4)), exceed((0, 0), (-1, 0))
     (False, True, True)
@@ -173,8 +175,8 @@ def _rank(profile: Profile, rows: Labels) -> int:
 
 
 def _constants_agree(small: Profile, large: Profile) -> bool:
-    """Whether what is constant in the larger model is the same constant in the smaller one;
-    what one lacks is zero.
+    """Return True if each constant of the larger model has the same value in the smaller one;
+    missing coefficients are zero.
     """
     values = dict(zip(small.labels, small.constants, strict=True))
     rows = zip(large.labels, large.free, large.constants, strict=True)

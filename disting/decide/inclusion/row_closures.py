@@ -1,5 +1,5 @@
-"""What one row of a larger chain can be in a limit: whether a receptance that is wanted of it is a
-limit of its receptances.
+"""Limits of one row of a larger chain: decides whether a wanted receptance is a limit of its
+receptances.
 
 * INSIDE: it is the very same map. FULL: its rank is the number of its coefficients, up to a common
   factor, that do not vanish identically, so its closure is the linear space of all such. MOMENTUM:
@@ -69,7 +69,7 @@ class Proof(NamedTuple):
 
 
 def show(wanted: Task, label: str) -> Proof | None:
-    """What settles a row at little cost, the cheapest first; None if nothing does."""
+    """Decide a row at little cost, the cheapest proof first; None if none succeeds."""
     named = f"{label}:{label_of(wanted.row)}"
     finding = next(filter(None, (test(wanted, named) for test in _TESTS)), None)
     if finding is None:
@@ -79,7 +79,7 @@ def show(wanted: Task, label: str) -> Proof | None:
 
 
 def by_dimension(wanted: Task, seed: str) -> Proof | None:
-    """Whether rows of one dimension differ, by ideals: up to some seconds; None if nothing is
+    """Prove that rows of one dimension differ, by ideals: up to some seconds; None if nothing is
     found.
     """
     step = _dimension(wanted, seed)
@@ -87,7 +87,9 @@ def by_dimension(wanted: Task, seed: str) -> Proof | None:
 
 
 def as_large(wanted: Task) -> bool:
-    """Whether what is wanted has the largest rank that the row could have, and the row has it."""
+    """Return True if the wanted receptances have the largest rank that the row could have, and the
+    row has it.
+    """
     most = _most_rank(wanted.searched)
     return most == generic_rank(wanted.searched, RANKS) and most == _rank_of_function(
         wanted.receptance
@@ -95,7 +97,9 @@ def as_large(wanted: Task) -> bool:
 
 
 def holds(step: RowLimits, wanted: Task) -> bool:
-    """Whether a step holds at fresh points; an equation, or that rows differ, is found again."""
+    """Return True if a step holds at fresh points; an equation, or a proof that rows differ, is
+    found again.
+    """
     if step.why is Why.COEFFICIENT:
         pairs = zip("ba", _support(wanted.receptance), _support(wanted.searched), strict=True)
         return any(
@@ -140,7 +144,7 @@ def _dimension(wanted: Task, seed: str, bits: int = SAFETY) -> tuple[Why, str] |
 
 @lru_cache(maxsize=REMEMBERED)
 def _differ_by_shares(row: Row, searched: Row, seed: str, bits: int) -> bool:
-    """Whether two rows of one dimension differ; many pairs of chains ask about the same two."""
+    """Return True if two rows of one dimension differ; many pairs of chains need the same two."""
     apart = tell_apart(row_factors(row), row_factors(searched), seed)
     return apart is not None and apart[1] >= bits
 
@@ -200,8 +204,8 @@ def _coordinates(model: CoefficientMap) -> int:
 
 
 def _keeps_momentum(wanted: Task) -> bool:
-    """Whether a_0 = a_1 = 0 and a_2 b_1 = a_3 b_0 hold in both identically, none of the four
-    being zero in what is there.
+    """Return True if a_0 = a_1 = 0 and a_2 b_1 = a_3 b_0 hold in both identically, all four being
+    nonzero where present.
     """
     for m in (wanted.receptance, wanted.searched):
         a, b = (*m.denominator, *m.denominator[:1] * 4), (*m.numerator, m.denominator[0])
@@ -225,8 +229,8 @@ def _at(model: CoefficientMap, label: str, modulus: int) -> tuple[list[int], lis
 
 
 def _does_not_vanish(wanted: Task, label: str) -> bool:
-    """Whether the row's equation of this label does not hold at a random point of what is
-    wanted.
+    """Return True if the row's equation of this label does not hold at a random point of the wanted
+    receptance.
     """
     equation = row_equation(wanted.row, label)
     if equation is None:

@@ -48,7 +48,7 @@ class RowEquation:
     modulus: int
 
     def holds(self, coefficients: tuple[int, ...]) -> bool:
-        """Whether it vanishes there."""
+        """Return True if the equation vanishes there."""
         terms = zip(
             self.numbers,
             (_product(m, coefficients, self.modulus) for m in self.monomials),
@@ -69,8 +69,8 @@ def row_equation(row: Row, label: str) -> RowEquation | None:
 
 
 def label_of(row: Row) -> str:
-    """What stands for a row in the labels of random points. Such labels are stored with evidence,
-    so this text stays as it is, whatever the names of the fields.
+    """Text of a row in the labels of random points. Such labels are stored with evidence, so this
+    text stays as it is, whatever the names of the fields.
     """
     return (
         f"Row(n_masses={row.n_masses}, walled={row.grounded}, act={row.a}, meas={row.b},"

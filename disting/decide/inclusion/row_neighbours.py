@@ -50,8 +50,8 @@ RowDraw = tuple[list[int], list[int], int]
 
 
 def are_no_limits(row: Row, points: Iterable[RowDraw]) -> bool:
-    """Whether it is proven that generic receptances are no limits of those of the row, by
-    receptances at random points.
+    """Return True if receptances at random points prove that generic receptances are not limits of
+    those of the row.
     """
     ends = ({1, 2}, {row.n_masses - 1, row.n_masses})
     if row.grounded or not row.damped or row.ground_dampers or {row.a, row.b} not in ends:
@@ -79,7 +79,7 @@ def are_no_limits(row: Row, points: Iterable[RowDraw]) -> bool:
 
 
 def _has_no_common_root(n: Modular, energy: Modular, t: int) -> bool:
-    """Whether the forms (1) and (2) have none, at this root of the numerator."""
+    """Return True if the forms (1) and (2) have no common root, at this root of the numerator."""
     modulus, lead = n.modulus(), int(n[n.degree()])
     scale = pow(lead, -1, modulus)
     n, energy = n * scale, energy * scale

@@ -30,8 +30,8 @@ from disting.model.question import Answer
 
 
 def confirms(evidence: PositiveEvidence, chain: Chain, other: Chain) -> bool:
-    """Whether the evidence is true of the two chains; statements about ranges are confirmed by
-    `ranges.confirms_within`.
+    """Return True if the evidence holds for the two chains; statements about ranges are confirmed
+    by `ranges.confirms_within`.
     """
     refuse(chain, other)
     chain, other = without_dead_time(chain), without_dead_time(other)
@@ -39,8 +39,8 @@ def confirms(evidence: PositiveEvidence, chain: Chain, other: Chain) -> bool:
 
 
 def proves(finding: PositiveFinding, chain: Chain, other: Chain) -> bool:
-    """Whether the finding's evidence is true of the two chains and shows its share, as surely
-    as it says.
+    """Return True if the finding's evidence holds for the two chains and proves its share, with the
+    stated certainty.
     """
     evidence = finding.evidence
     if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
@@ -112,7 +112,7 @@ def _answers(values: PointText, chain: Chain, other: Chain, answer: Answer) -> b
 
 
 def _is_of(values: PointText, chain: Chain) -> bool:
-    """Whether these are all parameters, positive."""
+    """Return True if these are all parameters, positive."""
     return sorted(name for name, _ in values) == sorted(chain.parameters) and all(
         v > 0 for v in read(values).values()
     )

@@ -1,5 +1,5 @@
-"""What a receptance as the sum of those of two rows says about equivalents of undamped and damped
-chains: NEVER, or row by row.
+"""Obstacles to equivalents of undamped and damped chains, from a receptance as the sum of those of
+two rows: NEVER, or row by row.
 
 H = R + F, R of the grounded row (g masses), F of the free row; d_R, d_F = springs between the
 ports of each. Statements are about all positive parameters of `chain` but for a proper algebraic
@@ -57,7 +57,7 @@ from disting.model.symmetry import canonical
 
 
 class Obstacle(StrEnum):
-    """Which of the statements above rules out positive equivalents."""
+    """Statement above that excludes positive equivalents."""
 
     DECAY = "decay"
     RESIDUES = "residues"
@@ -110,7 +110,7 @@ def receptances(chain: Chain, point: Point) -> list[Target]:
 
 
 def swap_fails(chain: Chain, other: Chain) -> bool:
-    """Whether neither equal nor swapped rows can give a positive equivalent; damped chains
+    """Return True if neither equal nor swapped rows can give a positive equivalent; damped chains
     with a gap.
     """
     if not (chain.damped and other.damped and chain.gap and other.gap):
@@ -157,5 +157,5 @@ def _residues(t: Target, low: int) -> list[Ball]:
 
 
 def is_collocated(chain: Chain) -> bool:
-    """Whether force and sensor are at one place in each row."""
+    """Return True if force and sensor are at one place in each row."""
     return all(row.distance == 0 for row in rows(chain))

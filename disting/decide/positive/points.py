@@ -88,8 +88,8 @@ def read(values: PointText) -> Point:
 
 
 def equivalent(chain: Chain, point: Point, other: Chain) -> Answer:
-    """Whether `other` has positive parameters with the receptance of `chain` at this positive
-    point.
+    """Decide whether `other` has positive parameters with the receptance of `chain` at this
+    positive point.
 
     Undamped, with one gap and decay: row by row, by words. Undamped, `other` without a gap and
     ports apart: by the word of the whole. Damped: NO where all solutions are listed and none is
@@ -106,7 +106,7 @@ def equivalent(chain: Chain, point: Point, other: Chain) -> Answer:
 
 
 def _row(row: Row, t: Target) -> Answer:
-    """Whether a positive row of this type has this receptance."""
+    """Decide whether a positive row of this type has this receptance."""
     if row.distance == 0:
         return Answer.YES  # it comes from a collocated row (Foster)
     if t.denominator.degree() != row.n_masses or t.numerator.degree() != row.numerator_degree:
@@ -167,8 +167,8 @@ def drawn_near(place: Point, ranges: Mapping[str, Range], length: int, label: st
 
 
 def is_long(point: Point, ranges: Mapping[str, Range]) -> bool:
-    """Whether every coordinate that a range leaves free has LEAST_SAFETY bits: a shorter one
-    was not drawn to testify.
+    """Return True if every coordinate that a range leaves free has LEAST_SAFETY bits: a shorter one
+    was not drawn for a proof.
     """
     free = (
         value

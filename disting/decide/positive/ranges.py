@@ -104,8 +104,8 @@ def within_ranges(
 
 
 def confirms_within(evidence: BoxMap | Points, chain: Chain, other: Chain, limits: Ranges) -> bool:
-    """Whether evidence of `within_ranges` is true; what holds without ranges is confirmed by
-    `confirmation.confirms`.
+    """Return True if the evidence of `within_ranges` holds; statements without ranges are confirmed
+    by `confirmation.confirms`.
     """
     if isinstance(evidence, BoxMap):
         renaming = dict(evidence.pairs)
@@ -120,7 +120,7 @@ def confirms_within(evidence: BoxMap | Points, chain: Chain, other: Chain, limit
 
 
 def equivalent_within(chain: Chain, point: Point, other: Chain, box: Mapping[str, Range]) -> Answer:
-    """Whether this model has an equivalent in the box of `other`."""
+    """Decide whether this model has an equivalent in the box of `other`."""
     if any(
         all(_in(value, box.get(name)) for name, value in image.items())
         for image in _images(chain, point, other)
@@ -139,7 +139,7 @@ def equivalent_within(chain: Chain, point: Point, other: Chain, box: Mapping[str
 
 
 def _sampled(chain: Chain, other: Chain, limits: Ranges, seed: str, tries: int) -> PositiveFinding:
-    """What short points see, and what long ones near them confirm."""
+    """Finding of short points, confirmed by long ones near them."""
     points = [random_point(chain, f"ranges:{seed}:{k}", limits.chain) for k in range(tries)]
     answers = [equivalent_within(chain, point, other, limits.other) for point in points]
     empirical = Empirical(answers.count(Answer.YES), tries, answers.count(Answer.UNKNOWN))
@@ -168,7 +168,9 @@ def _sampled(chain: Chain, other: Chain, limits: Ranges, seed: str, tries: int) 
 
 
 def _has_piece(chain: Chain, point: Point, other: Chain, limits: Ranges) -> bool:
-    """Whether an open part of the box around the point has equivalents in the box of `other`."""
+    """Return True if an open part of the box around the point has equivalents in the box of
+    `other`.
+    """
     box = limits.other
     if any(_stays(renaming, point, limits) for renaming in renamings(chain, other)):
         return True
@@ -184,8 +186,8 @@ def _has_piece(chain: Chain, point: Point, other: Chain, limits: Ranges) -> bool
 
 
 def _lacks_piece(chain: Chain, point: Point, other: Chain, limits: Ranges) -> Grade | None:
-    """Whether, and how surely, an open part of the box near the point has none: words are
-    exact, listed solutions bounded.
+    """Certainty that an open part of the box near the point has no equivalents, None if it may
+    have: words are exact, listed solutions bounded.
     """
     if equivalent_within(chain, point, other, limits.other) is not Answer.NO:
         return None
@@ -193,7 +195,7 @@ def _lacks_piece(chain: Chain, point: Point, other: Chain, limits: Ranges) -> Gr
 
 
 def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:
-    """Whether the renamed parameters near the point lie in the box: strictly inside, or with
+    """Return True if the renamed parameters near the point lie in the box: strictly inside, or with
     all of their range.
     """
     return all(
@@ -204,7 +206,7 @@ def _stays(renaming: Mapping[str, str], point: Point, limits: Ranges) -> bool:
 
 
 def _place(solution: Solution, box: Mapping[str, Range]) -> Answer:
-    """Whether a listed solution, if it is one, is real and inside."""
+    """Decide whether a listed solution, if it is one, is real and inside."""
     sides = [_side(value, box.get(name)) for name, value in solution.values.items()]
     if solution.real is Answer.NO or Answer.NO in sides:
         return Answer.NO
@@ -242,7 +244,7 @@ def _images(chain: Chain, point: Point, other: Chain) -> Iterator[Point]:
 
 
 def _maps(renaming: Mapping[str, str], limits: Ranges) -> bool:
-    """Whether every range lies inside the one that it is renamed to."""
+    """Return True if every range lies inside the one that it is renamed to."""
     pairs = [(limits.chain.get(name), limits.other.get(image)) for name, image in renaming.items()]
     return all(b is None or (a is not None and b[0] <= a[0] and a[1] <= b[1]) for a, b in pairs)
 
@@ -258,7 +260,7 @@ def _strictly_in(value: fmpq, bounds: Range | None) -> bool:
 
 
 def _is_of(point: Point, chain: Chain, limits: Ranges) -> bool:
-    """Whether these are all parameters, inside the ranges."""
+    """Return True if these are all parameters, inside the ranges."""
     inside = all(_in(value, limits.chain.get(name)) for name, value in point.items())
     return inside and sorted(point) == sorted(chain.parameters)
 

@@ -63,8 +63,8 @@ Factor = tuple[Poly, int, int]
 
 
 def always_real(chain: Chain, other: Chain) -> bool:
-    """Whether each generic real model of `chain` has a real equivalent in `other`, by real
-    factors; False says nothing.
+    """Return True if each generic real model of `chain` has a real equivalent in `other`, by real
+    factors; False proves nothing.
 
     >>> middle, end = Chain(3, 0, 0, 2, 0, 2, damped=False), Chain(3, damped=False)
     >>> always_real(middle, end), always_real(end, middle)
@@ -92,15 +92,15 @@ def real_witness(chain: Chain, other: Chain, seed: str) -> PointText:
 
 
 def confirms_real(values: PointText, chain: Chain, other: Chain) -> bool:
-    """Whether a stored point shows an open set of real models without real equivalents."""
+    """Return True if a stored point proves an open set of real models without real equivalents."""
     point = read(values)
     whole = sorted(point) == sorted(chain.parameters) and all(v != 0 for v in point.values())
     return whole and lacks_real(chain, point, other)
 
 
 def lacks_real(chain: Chain, point: Point, other: Chain) -> bool:
-    """Whether real models near this one are proven to have no real equivalents, generic ones at
-    least; False says nothing.
+    """Return True if real models near this one are proven to have no real equivalents, generic ones
+    at least; False proves nothing.
     """
     if not (is_plain(chain) and is_plain(other)) or chain.n_masses != other.n_masses:
         return False
@@ -163,14 +163,14 @@ def _sum(poles: list[tuple[Ball, Ball]]) -> Poly:
 
 
 def _fails(polynomial: Poly, degree: int, factor: int) -> bool:
-    """Whether a real polynomial of this degree certainly has no real factor of that one."""
+    """Return True if a real polynomial of this degree certainly has no real factor of that one."""
     if degree % 2 or factor % 2 == 0:
         return False
     return all(bool(z.imag != 0) for z in roots(polynomial, degree))
 
 
 def _by_any_poles(chain: Chain, other: Chain) -> bool:
-    """Whether real factors of all degrees exist, with force and sensor at one place in each
+    """Return True if real factors of all degrees exist, with force and sensor at one place in each
     row.
     """
     mine, searched = rows(chain), rows(other)
@@ -185,7 +185,7 @@ def _by_any_poles(chain: Chain, other: Chain) -> bool:
 
 
 def _row(row: Row, other: Row) -> bool:
-    """Whether each generic real row has a real equivalent of the other type."""
+    """Return True if each generic real row has a real equivalent of the other type."""
     same = sorted((row.a, row.n_masses + 1 - row.b)) == sorted(
         (other.a, other.n_masses + 1 - other.b)
     )
@@ -194,7 +194,7 @@ def _row(row: Row, other: Row) -> bool:
 
 
 def _splits(degree: int, factor: int, factor_degree: int) -> bool:
-    """Whether a real polynomial has a real factor of this degree, if it has one of degree
+    """Return True if a real polynomial has a real factor of this degree, if it has one of degree
     `factor_degree`.
     """
     return degree % 2 == 1 or factor % 2 == 0 or factor_degree % 2 == 1

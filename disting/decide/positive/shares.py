@@ -1,4 +1,5 @@
-"""Whether all, some or no positive models of one chain have a positive equivalent in another one.
+"""Share of the positive models of one chain that have a positive equivalent in another one: all,
+some or none.
 
 Strongest grounds first. Theorems that hold for all pairs of a kind: renaming by symmetry, duality,
 Foster (ALWAYS); decay, residues, own poles, signs, swapped rows (NEVER, see `obstacles`); the
@@ -139,8 +140,8 @@ def theorem(chain: Chain, other: Chain) -> str:
 
 
 def is_continued_fraction(chain: Chain) -> bool:
-    """Whether an undamped collocated chain has one set of positive parameters for each function
-    with resonances and antiresonances in turn, special ones too.
+    """Return True if an undamped collocated chain has one set of positive parameters for each
+    function with resonances and antiresonances in turn, special ones too.
 
     Its only long row is driven at an end. From there its parameters are the terms of Cauer's
     continued fraction, and no resonance has a node there. Two long rows may share a resonance, and
@@ -162,8 +163,8 @@ def _without_common_factors(chain: Chain, other: Chain) -> tuple[Chain, Chain]:
 
 
 def row_words(chain: Chain, other: Chain) -> tuple[RowWords, ...]:
-    """What each row of undamped `other` lacks; () where the rows do not correspond or what
-    they lack is not known.
+    """Words that each row of undamped `other` lacks; () where the rows do not correspond or the
+    missing words are unknown.
     """
     if chain.gap != other.gap or distances(chain) != distances(other):
         return ()
@@ -182,7 +183,7 @@ def _lacking(row: Row, other: Row) -> RowWords:
 
 
 def _contained(row: Row, other: Row) -> bool:
-    """Whether every positive row of the one type is the same as one of the other; mirrored
+    """Return True if every positive row of the one type is equivalent to one of the other; mirrored
     ports count as equal (`words`).
     """
     sides = [sorted((s.a - 1, s.n_masses - s.b)) for s in (row, other)]

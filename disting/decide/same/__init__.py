@@ -1,3 +1,1 @@
-"""Whether two chains of equal rank show the same behaviour: the exact decision, its domains, its
-check.
-"""
+"""Equivalence of two chains of equal rank: the exact decision, its domains, its check."""

@@ -44,7 +44,7 @@ class Witness:
     memo: dict[Structure, ModelSamples] = field(default_factory=dict)
 
     def confirms(self, evidence: Kind, representation: str, left: Chain, right: Chain) -> bool:
-        """Whether the evidence is true of the two chains and decides them."""
+        """Return True if the evidence holds for the two chains and decides them."""
         a, b = left.structure, right.structure
         pair = SampledPair(
             left=self._seen(a),
@@ -74,7 +74,9 @@ def of_sides(evidence: Kind, left: ChainSide, right: ChainSide, representation: 
 
 
 def _found_again(evidence: Kind, left: Chain, right: Chain) -> bool:
-    """What the exact decision, or the one on real and positive parameters, rests on."""
+    """Recompute the evidence of the exact decision, or of the decision over real and positive
+    parameters.
+    """
     return check(evidence, deciders_of(Of.CHAINS), left, right)
 
 
@@ -84,7 +86,7 @@ def check_theorem(evidence: Theorem, left: Chain, right: Chain) -> bool:
 
 
 def check_dead_time(evidence: DeadTime, left: Chain, right: Chain) -> bool:
-    """Which of them has one."""
+    """Return True if exactly one of them, the stated one, has a dead time."""
     dead_times = (left.dead_time, right.dead_time)
     return dead_times == (evidence.left_given, not evidence.left_given)
 
@@ -129,7 +131,7 @@ def check_fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
 
 
 def check_both_ways(evidence: BothWays, left: Chain, right: Chain) -> bool:
-    """What is known of either way, once more; something is."""
+    """Recompute the finding of either direction; at least one is known."""
     a, b = _canonical(left, right)
     ways = [
         (x, *pair) for x, pair in ((evidence.left, (a, b)), (evidence.right, (b, a))) if x.certainty
@@ -169,7 +171,8 @@ def check_odd_fibres(evidence: OddFibres, left: Chain, right: Chain) -> bool:
 
 
 def finding_holds(finding: Finding, first: Chain, second: Chain, settings: Settings) -> bool:
-    """Whether a finding on two canonical chains of equal rank is what its evidence shows.
+    """Return True if the evidence of a finding on two canonical chains of equal rank supports
+    exactly that finding.
 
     Outcome, bound and labels are compared with those that the settings draw. At these labels shares
     are refuted once more, solutions are put into both transfer functions, and contradictions of

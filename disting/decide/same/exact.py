@@ -114,14 +114,16 @@ def recheck_shares(evidence: NoShares, a: Chain, b: Chain, settings: Settings) -
 def by_labels(
     evidence: Solutions | Refutation, left: PolynomialMap, right: PolynomialMap, seed: str
 ) -> Finding:
-    """What the ideals at these labels say of two models of equal rank, if the seed draws them."""
+    """Finding from the ideals at these labels on two models of equal rank, if the seed draws
+    them.
+    """
     is_solved = isinstance(evidence, Solutions)
     membership = Membership.MEMBER if is_solved else Membership.EXCLUDED
     return as_finding(Decision(membership, safety_of(evidence, left, right, seed), evidence))
 
 
 def by_theorem(a: Chain, b: Chain, settings: Settings) -> Finding | None:
-    """What a theorem says of all parameters."""
+    """Finding of a theorem for all parameters."""
     named = theorem(a, b)
     if not named:
         return None
@@ -136,7 +138,7 @@ def by_dead_time(a: Chain, b: Chain, settings: Settings) -> Finding | None:
 
 
 def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
-    """What the synthesis proves, but for a bound; a dead time that both have is a factor of its
+    """Finding of the synthesis, with an error bound; a dead time that both have is a factor of its
     own.
     """
     a, b = (replace(c, dead_time=False) for c in (a, b))
@@ -149,8 +151,8 @@ def by_synthesis(a: Chain, b: Chain, settings: Settings) -> Finding | None:
 
 
 def by_full_rows(a: Chain, b: Chain, settings: Settings) -> Finding | None:
-    """What rows that can have any receptance prove; a dead time that both have is a factor of
-    its own.
+    """Finding from rows that can have any receptance; a dead time that both have is a factor of its
+    own.
     """
     evidence = same_by_full_rows(a.structure, b.structure)
     return (
@@ -163,8 +165,8 @@ def by_full_rows(a: Chain, b: Chain, settings: Settings) -> Finding | None:
 def by_shares(
     a: Chain, b: Chain, settings: Settings, tries: Sequence[Try] = TRIES
 ) -> Finding | None:
-    """What the shares of the numerator's roots refute; a dead time that both have is a factor
-    of its own.
+    """Refutation by the shares of the numerator's roots; a dead time that both have is a factor of
+    its own.
     """
     apart = tell_chains_apart(rational_part(a), rational_part(b), settings.seed, tries)
     if apart is None or apart[1] < LEAST_SAFETY:
@@ -202,7 +204,9 @@ def by_ideals(a: Chain, b: Chain, settings: Settings, limits: Limits | None = No
 
 
 def as_finding(decision: Decision[FibreAt | Solutions | Refutation]) -> Finding:
-    """What a fibre tells of two models of equal rank; ABANDONED with the reason if nothing."""
+    """Finding from a fibre on two models of equal rank; ABANDONED with the reason if there is
+    none.
+    """
     if decision.membership is Membership.UNKNOWN:
         return Finding(EXACT, Outcome.ABANDONED, note=decision.reason)
     outcome = Outcome.HOLDS if decision.membership is Membership.MEMBER else Outcome.FAILS

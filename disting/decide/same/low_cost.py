@@ -33,8 +33,8 @@ class _OutOfTime(Exception):
 
 
 def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """What is cheap of `exact.exact_finding`, for chains of equal rank and size without dead time;
-    ABANDONED where it is silent.
+    """Finding of the cheap parts of `exact.exact_finding`, for chains of equal rank and size
+    without dead time; ABANDONED where they do not decide.
     """
     finding: Finding = first_finding(SAME_CHAINS_QUICKLY.rows, a, b, settings)
     return finding
@@ -57,7 +57,9 @@ def by_synthesis_in_time(a: Chain, b: Chain, settings: Settings) -> Finding:
 
 
 def patient_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
-    """What shares and ideals say where the synthesis has no method, in a second to some minutes."""
+    """Finding from shares and ideals where the synthesis has no method, in a second to some
+    minutes.
+    """
     finding: Finding = first_finding(SAME_CHAINS_PATIENTLY.rows, a, b, settings)
     return finding
 

@@ -1,5 +1,5 @@
-"""Whether indistinguishable models stay so over real or positive parameters: what the paper calls
-admissible parameter sets.
+"""Equivalence of indistinguishable models over real or positive parameters, the admissible
+parameter sets of the paper.
 
 Positive. Both ways it is asked which positive models of the one have a positive equivalent in the
 other (`disting.decide.positive`). All, both ways: indistinguishable. None, both ways:
@@ -58,8 +58,8 @@ class Answerers:
 
 
 def positive_share(chain: Chain, other: Chain, settings: Settings) -> PositiveFinding:
-    """Which positive models of one canonical chain have a positive equivalent in another;
-    UNKNOWN for chains of two kinds.
+    """Positive models of one canonical chain that have a positive equivalent in another; UNKNOWN
+    for chains of two kinds.
     """
     try:
         return positive_finding(chain, other, settings)
@@ -91,15 +91,15 @@ def rational_map(left: Chain, right: Chain) -> str:
 
 
 def real_factors(left: Chain, right: Chain) -> bool:
-    """Whether every real model of either canonical chain has a real equivalent in the other, by
-    real factors.
+    """Return True if every real model of either canonical chain has a real equivalent in the other,
+    by real factors.
     """
     return always_real(left, right) and always_real(right, left)
 
 
 def needs_counts(left: Chain, right: Chain) -> bool:
-    """Whether the numbers of solutions may be asked for; undamped chains are settled by their
-    factors, as a rule.
+    """Return True if the numbers of solutions may be needed; undamped chains are usually decided by
+    their factors.
     """
     return bool(left.damped or left.ground_dampers) and not rational_map(left, right)
 

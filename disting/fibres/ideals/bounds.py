@@ -1,5 +1,4 @@
-"""How surely one fibre modulo one random prime tells what holds for generic parameters over the
-complex numbers.
+"""Certainty of a statement on generic complex parameters from one fibre modulo one random prime.
 
 Notation: n1, n2 parameters, c coordinates, V1 and V2 the closures of the images of Phi1 and Phi2.
 Point and prime are random. Of numerators of unequal degrees the missing coordinates are the

@@ -64,7 +64,7 @@ def _comparable(a: Structure, b: Structure) -> bool:
 
 
 def _stay_together(a: Structure, b: Structure, seed: str) -> bool:
-    """Whether the poles of the rows of both are inseparable, and no other set is as large as
+    """Return True if the poles of the rows of both are inseparable, and no other set is as large as
     the grounded row's.
     """
     free = row_factors(rows_of(a)[-1])

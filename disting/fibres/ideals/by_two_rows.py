@@ -1,4 +1,4 @@
-"""Whether generic models of one chain are models of another one that has a gap, row by row.
+"""Inclusion of generic models of one chain in another one that has a gap, row by row.
 
 The theorem of `splits` leaves three splits at most. In each of them both rows of the second chain
 have to be given receptances:
@@ -60,7 +60,7 @@ def refuted_by_rows(structure: Structure, other: Structure, seed: str) -> ByRows
 def included_by_rows(
     structure: Structure, other: Structure, seed: str, limits: Limits
 ) -> Decision[ByRows]:
-    """Whether, in some split, both rows have the receptances wanted in their closures;
+    """Decide whether, in some split, the closures of both rows contain the wanted receptances;
     elements may be zero. Else UNKNOWN.
     """
     wanted = replace(limits, safety=limits.safety + SPARE_BITS)
@@ -88,7 +88,7 @@ def _members(
 
 
 def confirms_by_rows(evidence: ByRows, left: Structure, right: Structure) -> bool:
-    """Whether the evidence holds: poles and splits are found again, each step is checked
+    """Return True if the evidence holds: poles and splits are recomputed, each step is checked
     without the search that found it.
     """
     structure, other = (left, right) if evidence.left_given else (right, left)
@@ -131,8 +131,8 @@ def obstacle(structure: Structure, other: Structure, label: str) -> str:
 
 
 def _are_alike(structure: Structure, other: Structure) -> bool:
-    """Whether both are plain, of one size, sensor and damping, and the one that is searched has
-    a gap.
+    """Return True if both are plain, have the same size, sensor and damping, and the searched one
+    has a gap.
     """
     kinds = [(s.n_masses, s.sensor_order, power(s)) for s in (structure, other)]
     return is_plain(structure) and is_plain(other) and kinds[0] == kinds[1] and gap(other) > 0

@@ -1,4 +1,4 @@
-"""What one or more fibres show, checked without the search that found it.
+"""Results of one or more fibres, checked without the search that found them.
 
 The labels of the evidence stand for random primes and points (`fibre_ideal.draw_point`). The error
 bound is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
@@ -26,7 +26,7 @@ AGAIN = Limits(seconds=1800.0, entries=10**9, safety=1)  # of a contradiction th
 
 
 def reaches_one(generators: Iterable[Sparse], size: int, modulus: int, degree: int) -> bool:
-    """Whether 1 is found in that degree.
+    """Return True if 1 is found in that degree.
 
     >>> reaches_one([{(1, 1): 1, (0, 0): -1}, {(1, 0): 1}], 2, 101, 2)
     True
@@ -74,9 +74,9 @@ def find_again(
     right: PolynomialMap,
     limits: Limits = AGAIN,
 ) -> bool:
-    """Whether solutions fit, and contradictions are found again, for maps whose coordinates can be
-    compared: by plain elimination, or, where that is too large, by the fast one at one fresh point,
-    in the direction of the evidence.
+    """Return True if the solutions fit and the contradictions are found again, for maps whose
+    coordinates can be compared: by plain elimination, or, where that is too large, by the fast one
+    at one fresh point, in the direction of the evidence.
 
     A contradiction of some degree is one of any larger degree too. Raises NotSeenError where none
     is found within the limits.
@@ -104,8 +104,8 @@ def refuted_at(
     right: PolynomialMap,
     limits: Limits = AGAIN,
 ) -> bool:
-    """Whether the fibre is empty at all of these labels, in the direction of the evidence; raises
-    NotSeenError where that is not found within the limits.
+    """Return True if the fibre is empty at all of these labels, in the direction of the evidence;
+    raises NotSeenError where that is not found within the limits.
     """
     model, other = (left, right) if evidence.left_given else (right, left)
     return all(
@@ -119,7 +119,8 @@ def _is_small(degree: int, unknowns: int) -> bool:
 
 
 def confirms(evidence: Solutions | Refutation, left: PolynomialMap, right: PolynomialMap) -> bool:
-    """Whether the evidence holds for these maps, whose coordinates can be compared, seen anew.
+    """Return True if the evidence holds for these maps, whose coordinates can be compared
+    (recomputed from scratch).
 
     A solution is put into both. A refutation is found again by plain Macaulay matrices, which takes
     long and much memory for many unknowns and high degrees (10 unknowns, degree 5: minutes).

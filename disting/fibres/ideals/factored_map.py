@@ -51,8 +51,8 @@ from disting.model.row import Row
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """Which roots of the numerator belong to the joints between the ports, in order, to theta
-    and to phi.
+    """Roots of the numerator that belong to theta and to phi, for the joints between the ports, in
+    order.
     """
 
     joints: tuple[int, ...]
@@ -197,7 +197,7 @@ def _names(row: Row) -> tuple[str, ...]:
 
 
 def _entries(joint: int, row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly, fmpz_mpoly]:
-    """What a joint adds to the rows of the masses on its left and on its right."""
+    """Terms of a joint in the rows of the masses on its left and on its right."""
     s, zero, (a, b) = ring["s"], 0 * ring["s"], _ports(row)
     if a <= joint < b and not row.damped:
         return ring[f"u{joint}"], ring[f"x{joint}"]

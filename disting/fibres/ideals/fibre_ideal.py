@@ -118,7 +118,7 @@ def agree(
     values: Sequence[int],
     modulus: int,
 ) -> bool:
-    """Whether two maps that can be compared have the same coefficients at these parameters
+    """Return True if two maps that can be compared have the same coefficients at these parameters
     modulo a prime.
     """
     pairs = zip(model.coordinates, other.coordinates, strict=True)

@@ -44,13 +44,15 @@ def same_by_full_rows(a: Structure, b: Structure, label: str = LABEL) -> FullRow
 
 
 def same_receptances(row: Row, other: Row) -> bool:
-    """Whether the receptances of two rows have equal closures, by one of both reasons."""
+    """Return True if the receptances of two rows have equal closures, for one of the two
+    reasons.
+    """
     return _shared(row.canonical, other.canonical, LABEL) is not None
 
 
 def _comparable(a: Structure, b: Structure) -> bool:
-    """Whether both have a gap at the same place, one sensor quantity, and the same factors
-    beside.
+    """Return True if both have a gap at the same place, the same sensor quantity, and the same
+    further factors.
     """
     kinds = [(s.row_ends, s.sensor_order, s.lag, s.dead_time) for s in (a, b)]
     return kinds[0] == kinds[1] and len(a.row_ends) == 2

@@ -1,5 +1,5 @@
-"""Whether generic models of one structure are models of another, by the ideal of one fibre, for
-any two coefficient maps.
+"""Inclusion of generic models of one structure in another, by the ideal of one fibre, for any two
+coefficient maps.
 
 For equal ranks both directions decide the same question, and one of them is often a hundred times
 cheaper: they are raced, the step of the least total work first. Work is counted in entries of
@@ -73,7 +73,7 @@ def _unknown(reason: str) -> IdealDecision:
 
 
 class GivenUp(Exception):
-    """What ends a search at its limits, in words."""
+    """Reasons for ending a search at its limits, in words."""
 
 
 @dataclass(slots=True)
@@ -126,8 +126,8 @@ def decide(
     limits: Limits = Limits(),
     members: bool = True,
 ) -> IdealDecision:
-    """Whether generic models of `model` are models of `other`; `equal_rank` lets the other
-    direction decide as well. Without `members` it is UNKNOWN that they are: only what refutes is
+    """Decide whether generic models of `model` are models of `other`; with `equal_rank` the other
+    direction can decide too. Without `members` it is UNKNOWN that they are: only what refutes is
     looked for.
 
     Numerators of unequal degrees are compared with zeros where one has no coefficient. Raises
@@ -175,8 +175,8 @@ def decide_matched(
 def is_empty(
     model: PolynomialMap, other: PolynomialMap, *, equal_rank: bool, label: str, limits: Limits
 ) -> bool:
-    """Whether the fibre of `other` over the point of `model` that the label stands for is empty:
-    one run, in this direction. Raises NotSeenError where the limits end it.
+    """Return True if the fibre of `other` over the point of `model` that the label denotes is
+    empty: one run, in this direction. Raises NotSeenError where the limits end it.
     """
     _refuse(model, other, equal_rank, "verify")
     question = _Question(model, other, equal_rank, limits, process_time() + limits.seconds)

@@ -1,4 +1,4 @@
-"""Which parameters have one value in a generic fibre of a coefficient map: the fibre over a random
+"""Parameters with a single value in a generic fibre of a coefficient map: the fibre over a random
 point p0 of the same model, modulo a random prime.
 
 Parameter j has another value there exactly if the equations of the fibre together with t (q_j -
@@ -65,7 +65,7 @@ class ValueCounts:
 
 
 def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> ValueCounts:
-    """Which of these parameters, each locally identifiable, have one value.
+    """Find the parameters, among these locally identifiable ones, that have a single value.
 
     >>> from disting.fibres.ideals.system import coefficient_map
     >>> from disting.model.chain import Chain
@@ -166,7 +166,7 @@ def _at_point(
 
 
 def _is_given(rows: Iterable[Sparse], at: int, value: int, modulus: int) -> bool:
-    """Whether an equation of the basis says that the unknown is what it is at p0."""
+    """Return True if an equation of the basis states that the unknown has its value at p0."""
     return any(
         len(row) == 2
         and row.get(_power(size := len(next(iter(row))), at)) == 1
@@ -186,7 +186,9 @@ def _has_no_other(
     value: int,
     deadline: float,
 ) -> bool:
-    """Whether no solution has another value than p0: 1 is in the ideal with t (q - p0) - 1."""
+    """Return True if no solution has a value different from that at p0: 1 is in the ideal with t (q
+    - p0) - 1.
+    """
     size = len(ideal.unknowns) + 1
     t, zero = _power(size, size - 1), (0,) * size
     inverse = {(*_power(size - 1, at), 1): 1, t: -value, zero: -1}

@@ -51,7 +51,9 @@ DRAWS = 1 << 14  # points looked at until the roots lie in the field: one in 720
 PATTERNS = 400  # points at which the Galois group is looked at
 MOST = 4_000_000  # entries of one matrix
 Try = tuple[bool, int]
-"""Whether the left model's point is given, and how many entries a matrix may have."""
+"""Direction (True: the left model's point is given), and the largest number of entries of a
+matrix.
+"""
 # little is lost where one direction is much dearer than the other
 TRIES = tuple((way, most) for most in (40_000, 100_000, 400_000, MOST) for way in (True, False))
 
@@ -95,7 +97,7 @@ def tell_apart(
 
 
 def may_share(left: FactoredMap, right: FactoredMap) -> bool:
-    """Whether both have as many zeros, poles other than zero, and parameters."""
+    """Return True if both have the same numbers of zeros, nonzero poles and parameters."""
     counts, other_counts = (
         (len(x.joints) + len(x.left) + len(x.right), len(x.poles), len(x.parameters))
         for x in (left, right)
@@ -117,8 +119,9 @@ class _Way:
     entries: float = 0
 
     def is_refuted(self, most: int) -> bool:
-        """Whether all shares are, with matrices of so many entries; a larger number goes on where
-        a smaller one ended. Raises _SolvableError where a share has solutions.
+        """Return True if all shares are refuted, with matrices of at most this number of entries; a
+        larger number continues where a smaller one ended. Raises _SolvableError where a share has
+        solutions.
         """
         while self.steps is not None or self._is_next():
             if self.entries > most:
@@ -201,8 +204,8 @@ def shares_by_type(roots: Sequence[tuple[int, str]], joints: int, left: int) -> 
 
 
 def is_symmetric(row: FactoredMap, label: str) -> bool:
-    """Whether the Galois group of theta phi over Q(p) is proven to be the product of the full
-    symmetric groups.
+    """Return True if the Galois group of theta phi over Q(p) is proven to be the product of the
+    full symmetric groups.
     """
     modulus = prime(f"{label}:group")
     wanted = {
@@ -232,8 +235,8 @@ def _wanted(degree: int) -> set[tuple[int, ...]]:
 
 
 def _transposes(cycles: tuple[int, ...], beside: tuple[int, ...]) -> bool:
-    """Whether a power of a permutation with these cycles is a transposition, and trivial on the
-    cycles beside.
+    """Return True if a power of a permutation with these cycles is a transposition, and trivial on
+    the other cycles.
     """
     odd = [c for c in cycles if c % 2]
     power = lcm(*odd)
@@ -247,12 +250,14 @@ def _cycles(factor: fmpz_mod_poly) -> tuple[int, ...]:
 
 
 def _may_split(factor: fmpz_mod_poly, modulus: int) -> bool:
-    """Whether its discriminant is a square, as of distinct linear factors (L. Stickelberger)."""
+    """Return True if its discriminant is a square, as for distinct linear factors (L.
+    Stickelberger).
+    """
     return factor.degree() < 2 or fmpz(int(factor.discriminant())).jacobi(modulus) == 1
 
 
 def _splits(factor: fmpz_mod_poly, modulus: int) -> bool:
-    """Whether it is a product of distinct linear factors: modulo these alone x^p = x."""
+    """Return True if it is a product of distinct linear factors: modulo these alone x^p = x."""
     x = long_polynomial([0, 1], modulus)
     return factor.degree() < 2 or x.pow_mod(modulus, factor) == x
 

@@ -79,8 +79,8 @@ class Receptances:
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """What the two rows of another chain have to be: one of the three ways by its name, with
-    both receptances.
+    """Requirements on the two rows of another chain: one of the three splits by its name, with both
+    receptances.
     """
 
     name: str
@@ -88,7 +88,7 @@ class Split:
 
 
 def is_plain(structure: Structure) -> bool:
-    """Whether there are no dampers to the ground, no lag and no dead time."""
+    """Return True if there are no dampers to the ground, no lag and no dead time."""
     return not (
         structure.lag or structure.dead_time or any(e.kind == "b" for e in structure.elements)
     )
@@ -184,8 +184,8 @@ def _rigid_body() -> CoefficientMap:
 
 @cache
 def poles_are_inseparable(structure: Structure, label: str) -> bool:
-    """Whether both conditions are proven for both rows of a plain chain, at points that the label
-    stands for.
+    """Return True if both conditions are proven for both rows of a plain chain, at points that the
+    label denotes.
 
     >>> from disting.model.chain import Chain
     >>> poles_are_inseparable(Chain(3, 1, 1, 2, 1, 2, damped=True).structure, "doc")

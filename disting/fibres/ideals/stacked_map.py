@@ -83,5 +83,5 @@ def map_of(names: Sequence[str], parts: Sequence[Sequence[Terms]]) -> StackedMap
 
 
 def is_one(terms: Terms) -> bool:
-    """Whether a polynomial is the constant 1."""
+    """Return True if a polynomial is the constant 1."""
     return len(terms) == 1 and terms[0][1] == 1 and not any(terms[0][0])

@@ -93,7 +93,7 @@ class CoefficientMap:
 
     @property
     def is_monic(self) -> bool:
-        """Whether the leading coefficient of the denominator is 1, so that equal functions have
+        """True if the leading coefficient of the denominator is 1, so that equal functions have
         equal coefficients.
         """
         return bool(self.denominator[-1].is_one())
@@ -241,8 +241,8 @@ def receptance_of_row(row: Row, ring: dict[str, fmpz_mpoly]) -> tuple[fmpz_mpoly
 def with_ratios(
     row: Row, joints: Sequence[fmpz_mpoly], ring: dict[str, fmpz_mpoly]
 ) -> list[tuple[fmpz_mpoly, fmpz_mpoly]]:
-    """What the joints 0, 1, .. left of each mass add to the masses on their left and right: c_i and
-    r_i c_i.
+    """Terms of the joints 0, 1, .. left of each mass for the masses on their left and right: c_i
+    and r_i c_i.
     """
     unit = ring["s"] ** 0
     ratios = [ring.get(f"r{i + row.before}", unit) for i in range(row.n_masses)]

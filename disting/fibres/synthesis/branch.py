@@ -50,8 +50,8 @@ def vanishes(value: Ball, scale: Ball | arb) -> bool:
 
 
 def is_boundary(value: Ball) -> bool:
-    """Whether an element or a leading coefficient that must not be zero cannot be told from
-    zero.
+    """Return True if an element or a leading coefficient that must be nonzero cannot be separated
+    from zero.
     """
     return bool(value.contains(0))
 

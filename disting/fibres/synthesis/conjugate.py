@@ -1,5 +1,4 @@
-"""Which zeros of a polynomial over Q are conjugate: of ways to share them out that are conjugate,
-one speaks for all.
+"""Conjugate zeros of a polynomial over Q: of several conjugate distributions, one represents all.
 
 Equations with coefficients in Q(z_1, .., z_m), z_i the zeros of N in Q[s], have a complex solution
 exactly if they have an algebraic one, and an automorphism over Q carries the solutions of one way
@@ -62,7 +61,7 @@ _WANTED = ((), (), ("transposition",), ("transitive", "doubly", "transposition")
 
 
 def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Signs:
-    """What the factors modulo a prime show of the group; nothing if one is multiple or a degree
+    """Information on the group from the factors modulo a prime; none if one is multiple or a degree
     falls.
     """
     reduced = [nmod_poly([int(c) % modulus for c in f.coeffs()], modulus) for f in factors]

@@ -88,7 +88,9 @@ class Branch:
 
 
 def serves(row: Row) -> bool:
-    """Whether b and what is right of it has no damper to the ground, and E(d) is not too long."""
+    """Return True if b and everything to its right has no damper to the ground, and E(d) is not too
+    long.
+    """
     limit = ALONE_LIMIT if row.is_whole else DEGREE_LIMIT
     return degree_of(row) <= limit and not any(i >= row.b for i in row.ground_dampers)
 
@@ -151,7 +153,7 @@ def _quickly(branch: Branch, d: Ball) -> Iterable[Leaf]:
 
 @dataclass(frozen=True, slots=True)
 class SubsetSums:
-    """What E tells of one d and rho: G_d(0)^K d^-L, and the sum of 1/z for every subset of the
+    """Values of E for one d and rho: G_d(0)^K d^-L, and the sum of 1/z for every subset of the
     roots of G_d.
     """
 

@@ -101,7 +101,7 @@ def next_to_end(row: Row, data: Receptance) -> Iterator[Leaf]:
 
 
 def is_untested(row: Row) -> bool:
-    """Whether the rest of the row adapts to any choice of beta."""
+    """Return True if the rest of the row adapts to any choice of beta."""
     return set(range(1 + row.grounded, row.n_masses)) <= set(row.ground_dampers)
 
 

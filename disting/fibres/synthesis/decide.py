@@ -1,4 +1,4 @@
-"""Whether the models of one chain are models of another: one rational point, and its fibre.
+"""Inclusion of the models of one chain in another: one rational point, and its fibre.
 
 The images of two coefficient maps have irreducible closures V1 and V2. If their ranks are equal,
 V1 = V2 exactly if a generic point of one lies in the image of the other, in either direction; if
@@ -44,7 +44,7 @@ class Direction(StrEnum):
 
 
 class Grounds(StrEnum):
-    """What stands behind a finding.
+    """Grounds of a finding.
 
     REFUTED: every branch is refuted by a ball or a degree; proves that p0 has no equivalent.
     THEOREM: duality, an exact map for all parameters. RENAMING: symmetry, likewise. CONSTRUCTION:
@@ -89,12 +89,12 @@ class Exact:
 
     @property
     def is_exact(self) -> bool:
-        """Whether it is known of the point itself, and not within balls only."""
+        """True if the result holds for the point itself, not only within balls."""
         return self.grounds in (Grounds.REFUTED, Grounds.CONSTRUCTION)
 
     @property
     def evidence(self) -> FibreAt:
-        """What can be checked again."""
+        """Evidence that can be checked again."""
         return FibreAt(
             left_given=self.direction is Direction.LEFT_IN_RIGHT,
             point=tuple((name, str(value)) for name, value in self.point.items()),
@@ -105,8 +105,8 @@ class Exact:
         )
 
     def decision(self, safety: int) -> Decision[FibreAt]:
-        """What is proven of generic models but for an error bound of so many bits; UNKNOWN where
-        solutions are known within balls only.
+        """Decision on generic models, proven except for an error bound of this number of bits;
+        UNKNOWN where solutions are known within balls only.
         """
         if self.is_exact:
             return Decision(self.membership, safety, self.evidence)

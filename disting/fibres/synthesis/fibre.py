@@ -110,7 +110,7 @@ def _without_lag_pole(chain: Chain, target: Target) -> Fibre:
 
 
 def _ruled_out(chain: Chain, target: Target) -> Fibre | None:
-    """What the degrees and the multiplicities of the target alone say."""
+    """Fibre that follows from the degrees and multiplicities of the target alone."""
     grounded, free = grounded_and_free(chain.structure)
     q, n, lag = _q(chain), chain.n_masses, int(chain.lag)
     whole = free if grounded is None else None

@@ -31,7 +31,9 @@ from disting.model.row import Row
 
 
 def adapts(row: Row) -> bool:
-    """Whether the last mass has no damper, or any beta serves, and C has simple roots."""
+    """Return True if the last mass has no damper, or any beta is suitable, and C has simple
+    roots.
+    """
     if row.n_masses == 2:
         return row.ground_dampers == (1,) or (not row.grounded and len(row.ground_dampers) == 2)
     return (

@@ -1,4 +1,4 @@
-"""Which method serves which row; the ports decide."""
+"""Choice of the method for each row; the ports decide."""
 
 from collections.abc import Callable, Iterator
 
@@ -26,7 +26,7 @@ def synthesise(row: Row, data: Receptance) -> Iterator[Leaf]:
 
 
 def is_covered(row: Row) -> bool:
-    """Whether a method serves this row or its mirror image."""
+    """Return True if a method applies to this row or its mirror image."""
     return cost(row) < _ORDER.index(None)
 
 

@@ -1,4 +1,4 @@
-"""Which poles belong to the grounded row: H = R + F, split by every subset of the non-zero poles.
+"""Assignment of poles to the grounded row: H = R + F, split by every subset of the nonzero poles.
 
 R has q g of the simple poles z_j of H with H's residues there, F the others and the motion as a
 whole, s^-q (s^-1 where dampers to the ground stop it). Far away R falls off like s^-(2+distance)
@@ -86,12 +86,12 @@ def _markov(data: Receptance, count: int) -> list[Ball]:
 
 
 def _decay(row: Row, q: int) -> int:
-    """How many of the leading terms of its H = sum h_i s^(-i-1) (q = 1: in x) vanish."""
+    """Number of leading terms of its H = sum h_i s^(-i-1) (q = 1: in x) that vanish."""
     return row.relative_degree * q // 2 - 1
 
 
 def _agree(mine: list[Pole], targets: list[Ball]) -> bool:
-    """Whether the sums of r z^i agree with the targets."""
+    """Return True if the sums of r z^i agree with the targets."""
     return all(_agrees([p.moment(i) for p in mine], target) for i, target in enumerate(targets))
 
 

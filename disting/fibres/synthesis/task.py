@@ -1,4 +1,4 @@
-"""What a synthesis is asked, and its result: a receptance, exact, and what has it."""
+"""Task of a synthesis and its result: an exact receptance, and the models that have it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class Status(StrEnum):
 
 
 class Confirmation(StrEnum):
-    """What is proven of a listed solution.
+    """Proven property of a listed solution.
 
     SUBSYSTEM: a Krawczyk step proves that as many coefficient equations as there are parameters
     have exactly one common solution in the box; the other equations hold within their balls.
@@ -65,8 +65,8 @@ class Solution:
 
 @dataclass(frozen=True, slots=True)
 class Exclusions:
-    """How many branches ended for which reason: refuted (proven), at the boundary (an element
-    near zero), not covered.
+    """Numbers of branches by the reason for which they ended: refuted (proven), at the boundary (an
+    element near zero), not covered.
     """
 
     refuted: int = 0
@@ -107,7 +107,7 @@ class Target:
 
     @property
     def is_even(self) -> bool:
-        """Whether it is a function of s^2."""
+        """True if it is a function of s^2."""
         return not any(c for p in (self.numerator, self.denominator) for c in p.coeffs()[1::2])
 
     def folded(self, q: int) -> "Target":
@@ -179,7 +179,7 @@ def rests_differently(t: Target, q: int, free: Row) -> bool:
 
 
 def is_regular(t: Target, q: int, n_masses: int, whole: Row | None, lag: int = 0) -> bool:
-    """Whether the methods apply: q N + lag poles, 1 to q of them zero, the others simple;
+    """Return True if the methods apply: q N + lag poles, 1 to q of them zero, the others simple;
     simple zeros too without a gap.
     """
     den, low = t.denominator, poles_at_zero(t)

@@ -71,13 +71,13 @@ Outwards = tuple[
 
 
 def is_plain(chain: Chain) -> bool:
-    """Whether it consists of masses and springs alone."""
+    """Return True if it consists of masses and springs alone."""
     return not (chain.damped or chain.ground_dampers or chain.lag or chain.dead_time)
 
 
 def is_untested(chain: Chain) -> bool:
-    """Whether the synthesis of this chain has no tests at all: undamped, one row or force and
-    sensor at one mass of each row.
+    """Return True if the synthesis of this chain has no tests at all: undamped, one row or force
+    and sensor at one mass of each row.
 
     Then every solution that is listed exists.
     """
@@ -86,7 +86,9 @@ def is_untested(chain: Chain) -> bool:
 
 
 def is_constructed(chain: Chain, point: Point, other: Chain) -> bool:
-    """Whether a solution of `other` for the given model is proven to exist; False says nothing."""
+    """Return True if a solution of `other` for the given model is proven to exist; False proves
+    nothing.
+    """
     grounded, free = grounded_and_free(canonical(other).chain.structure)
     if (
         not is_plain(chain)
@@ -147,7 +149,7 @@ def _exists(row: Row, exact: Target) -> bool:
 
 
 def are_foster(left: Chain, right: Chain) -> bool:
-    """Whether Foster's theorem makes two models the same.
+    """Return True if two models are equivalent by Foster's theorem.
 
     >>> are_foster(Chain(3, damped=False), Chain(3, 2, 2, 3, 2, 3, damped=False))
     True
@@ -156,7 +158,7 @@ def are_foster(left: Chain, right: Chain) -> bool:
 
 
 def are_same_by_rows(left: Chain, right: Chain) -> bool:
-    """Whether the theorem on single rows makes two models with the same gap the same."""
+    """Return True if two models with the same gap are equivalent by the theorem on single rows."""
     if not _alike(left, right) or left.gap != right.gap:
         return False
     pairs = zip(*(rows_of(canonical(c).chain.structure) for c in (left, right)), strict=True)
@@ -174,7 +176,7 @@ def _same(left: Row, right: Row) -> bool:
 
 
 def are_dual(left: Chain, right: Chain) -> bool:
-    """Whether the theorem applies.
+    """Return True if the duality theorem applies.
 
     >>> are_dual(Chain(3, 0, 0, 1, 0, 1, damped=True), Chain(3, 2, 2, 3, 2, 3, damped=True))
     True

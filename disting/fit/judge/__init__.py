@@ -1,3 +1,3 @@
-"""What the data say of fitted candidates: explained or not, determined or not, excluded or not, and
-what does the same.
+"""Judgement of fitted candidates by the data: explained or not, determined or not, excluded or not,
+and equivalents.
 """

@@ -22,8 +22,8 @@ DESIGNED = ("inertia", "stiffness", "resonance", "antiresonance")
 
 
 class Rule(StrEnum):
-    """Which candidates may be selected: what the data do not exclude, or of that what the paper's
-    criteria admit.
+    """Rule of selection: all candidates that the data do not exclude, or only those that satisfy
+    the paper's criteria.
 
     >>> Rule("paper") is Rule.PAPER
     True
@@ -34,7 +34,7 @@ class Rule(StrEnum):
 
 
 def reasons(candidate: Candidate, task: Task, limits: Thresholds, rule: Rule) -> tuple[str, ...]:
-    """What the data do not determine of a candidate; nothing if it is admissible."""
+    """Sentences on what the data do not determine of a candidate; empty if it is admissible."""
     bound = tuple(f"{n} is at its bound" for n in candidate.at_bound)
     exceeded = limits.reasons(candidate.practical)
     if rule is Rule.PAPER or not exceeded or candidate.practical.unidentifiable:
@@ -50,7 +50,9 @@ def undetermined(candidate: Candidate) -> tuple[str, ...]:
 
 
 def undetermined_sentence(candidate: Candidate, task: Task) -> str:
-    """What the data do not determine well, in one sentence; "" where they determine all."""
+    """One sentence on the parameters that the data do not determine well; "" where they determine
+    all.
+    """
     loose = {n: e for n, e in candidate.practical.relative_errors.items() if not e <= FROM_ZERO}
     if not loose:
         loose = {

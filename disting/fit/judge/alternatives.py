@@ -87,8 +87,8 @@ def representatives(
 
 
 def stands_for(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> bool:
-    """Whether two chains have the same models with positive parameters within the limits, as
-    far as that is known.
+    """Return True if two chains are known to have the same models with positive parameters within
+    the limits.
     """
     if chain.gap_damper or other.gap_damper:
         same = across_gap(chain, other, engine, limits)
@@ -127,8 +127,8 @@ def alternatives(
 
 
 def across_gap(chain: Chain, other: Chain, engine: Engine, limits: Limits) -> Alternative | None:
-    """What another structure is if one of both has a damper across the gap; None where both are
-    distinguishable.
+    """Alternative that another structure is if one of both has a damper across the gap; None where
+    both are distinguishable.
     """
     if chain.dead_time != other.dead_time:
         return None
@@ -179,7 +179,7 @@ def _alternative(
 
 
 def is_within(renaming: Mapping[str, str], limits: Limits) -> bool:
-    """Whether the renaming takes every range into that of the parameter that it becomes."""
+    """Return True if the renaming maps every range into that of the parameter's new name."""
     anything = (0.0, inf)
     pairs = [
         (limits.get(name, anything), limits.get(image, anything))
@@ -208,7 +208,7 @@ def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], R
 
 
 def _surely_apart(winner: Chain, other: Chain) -> bool:
-    """Whether the shipped verdict says so."""
+    """Return True if the shipped verdict states that they are distinguishable."""
     matrix = _shipped()
     if (
         matrix is None

@@ -1,5 +1,5 @@
-"""What fitted candidates are worth: criteria, standard errors, cost on data that no fit has
-seen, chi2 per line.
+"""Figures of merit of fitted candidates: criteria, standard errors, cost on data not used in any
+fit, chi2 per line.
 
 Structural identifiability of fitted candidates: what no data can determine, whatever the
 excitation and the noise.
@@ -72,7 +72,9 @@ def with_structure(
 def _told_together(
     chain: Chain, assessment: Practical, task: Task, settings: Settings
 ) -> Practical:
-    """What the first response determines, all determine; else their stacked Jacobian is asked."""
+    """Practical identifiability from all responses: parameters that the first response determines,
+    else the stacked Jacobian.
+    """
     common = tuple(name for name in assessment.names if name in chain.parameters)
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
     if max(t.rank_by(common) for t in proof) == len(common):
@@ -103,7 +105,7 @@ def _told(chain: Chain, assessment: Practical, settings: Settings) -> Practical:
 
 
 def in_words(determined: Sequence[Formula]) -> str:
-    """What is determinable at most; combinations that are long to read are counted.
+    """Largest set of determinable parameters in words; long combinations are only counted.
 
     >>> from disting.decide.identifiability.parts import monomial
     >>> in_words([monomial(k12=1, d12=-1), monomial(k12=1, m1=-1, m2=-1)])
@@ -165,7 +167,7 @@ class Candidate:
 
     @property
     def admissible(self) -> bool:
-        """Whether all its parameters are determined, by the criteria of the rule."""
+        """True if all its parameters are determined, by the criteria of the rule."""
         return not self.reasons
 
     @property
@@ -216,7 +218,7 @@ def judge(
     own_scatters: Scatters,
     settings: Settings,
 ) -> list[Candidate]:
-    """What each estimate is worth by the scatter of the data, in the order of the cost on test."""
+    """Judge each estimate by the scatter of the data, in the order of the cost on test."""
     each = list(estimates)
     first = {e.chain: _criteria(e, task, own_scatters[0]) for e in each}
     criteria = with_structure({c: seen for c, (seen, _) in first.items()}, task, settings)
@@ -329,9 +331,9 @@ def _candidate(
 def _expected(
     estimate: Estimate, task: Task, test: AnyCost | None, inside: Scatter, outside: Scatter
 ) -> Real:
-    """What the whitened residuals on the judged data are expected to be, shape (n_y,): 1, and the
-    errors of the parameters. Without test data these are errors of a fit without the line: what one
-    line alone determines, as the height of a narrow resonance, the others do not foretell.
+    """Expected whitened residuals on the judged data, shape (n_y,): 1, and the errors of the
+    parameters. Without test data these are errors of a fit without the line: what one line alone
+    determines, as the height of a narrow resonance, the others do not foretell.
     """
     p, free = values_of(estimate, task), task.box(task.names(estimate.chain)).free
     plant, sigma, judging = task.plant(estimate.chain), task.cost.scatter(inside), test or task.cost

@@ -1,4 +1,4 @@
-"""Which of the fitted candidates the data do not exclude, and which of these is selected.
+"""Choice among the fitted candidates: those that the data do not exclude, and the selected one.
 
 A candidate is excluded if it does not explain the data (`explanation`) while others do, or if
 another one shows that it misses more than noise (`exclusion`). Of those that are left the simplest
@@ -206,8 +206,8 @@ def choice(
     rule: Rule,
     settings: Settings,
 ) -> Choice:
-    """Which candidates are left, and which one is selected; `fitted` in the order of J on test,
-    `scatters` = scatter of training data and of those on test.
+    """Find the remaining candidates and select one; `fitted` in the order of J on test, `scatters`
+    = scatter of training data and of those on test.
     """
     judging, seen = test or task.cost, scatters[1]
     asked, enough = eligible(fitted, rule), judged(fitted, rule, judging)
@@ -290,7 +290,7 @@ def _excluded(
 
 
 def trained_as(candidate: Candidate, task: Task, scatter: Scatter) -> Fit:
-    """What the test of exclusion asks of a candidate on the data of its fit."""
+    """Fit of a candidate to its training data, as the test of exclusion needs it."""
     return _fit_at(candidate.chain, values_of(candidate.estimate, task), task, scatter)
 
 

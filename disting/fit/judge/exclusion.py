@@ -49,8 +49,8 @@ REMEMBERED = 1024  # ranks; each pair asks for those of both structures
 
 
 class Residuals(Protocol):
-    """What a fit leaves: whitened residual r, shape (n_y,), an orthonormal basis of the
-    sensitivities, shape (n_y, n), and its noise in units of the scatter.
+    """Whitened residuals of a fit: r, shape (n_y,), an orthonormal basis of the sensitivities,
+    shape (n_y, n), and the noise in units of the scatter.
     """
 
     @property
@@ -137,7 +137,7 @@ def _spread(d: Real, other: Residuals) -> float:
 
 
 def limit(surplus: int, freedom: float, trials: int = 1, level: float = LEVEL) -> float:
-    """What T may be by chance.
+    """Critical value of T.
 
     >>> round(limit(1, float("inf")), 2), round(limit(1, 100.0), 2)
     (6.63, 6.9)

@@ -1,4 +1,4 @@
-"""Whether a candidate explains the data: its residuals against the scatter of the lines, in
+"""Test of whether a candidate explains the data: its residuals against the scatter of the lines, in
 absolute terms.
 
 With residuals r in units of the scatter (`whitened`) and what they are expected to be, the errors
@@ -69,7 +69,7 @@ RANGES = 3  # that are named, those that miss most
 
 
 class Level(StrEnum):
-    """How far a structure explains data."""
+    """Degree to which a structure explains data."""
 
     EXPLAINS = "explains"
     APART = "explains apart from"
@@ -128,13 +128,13 @@ class Miss:
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """What the residuals of a candidate say of it: chi2 per line, correlation of neighbouring
-    lines, what it misses where; `clear`: share of the lines that carry information in that one of
-    several responses that has most; `chi2_apart`: without the two neighbouring lines that it misses
-    most; `worst_apart`: that of the line which it misses most beside these; `lines` of the data,
-    and `needed` ones; `systematic`: the correlation of what is missed (`systematic_share`), 0 where
-    it may be noise; `is_beaten`: a machine outside the candidates shows that more than noise is
-    missed (`outside`).
+    """Analysis of a candidate's residuals: chi2 per line, correlation of neighbouring lines, where
+    lines are missed; `clear`: share of the lines that carry information in the most informative of
+    several responses; `chi2_apart`: without the two neighbouring lines with the largest misfit;
+    `worst_apart`: that of the worst line besides these; `lines` of the data, and `needed` ones;
+    `systematic`: the correlation of the misfit (`systematic_share`), 0 where it may be noise;
+    `is_beaten`: a machine outside the candidates shows that the misfit is more than noise
+    (`outside`).
     """
 
     chi2: float
@@ -155,7 +155,7 @@ class Explanation:
 
     @property
     def level(self) -> Level:
-        """How far the candidate explains the data."""
+        """Degree to which the candidate explains the data."""
         misses_more = self.systematic > 0 or self.is_beaten
         is_near = self.size_level is not Level.NOT and misses_more
         return Level.NEARLY if is_near else self.size_level
@@ -188,13 +188,14 @@ class Explanation:
 
     @property
     def noisy(self) -> bool:
-        """Whether the data are mostly noise."""
+        """True if the data are mostly noise."""
         return (self.scatter.clear if self.clear is None else self.clear) < FEW_CLEAR
 
 
 def level_of(whole: float, apart: float, worst: float, own_scatter: Scatter) -> Level:
-    """How far a structure explains data of this scatter: by its chi2 per line, by that without the
-    two neighbouring lines that it misses most, and by that of the worst line beside these.
+    """Degree to which a structure explains data of this scatter: by its chi2 per line, by that
+    without the two neighbouring lines with the largest misfit, and by that of the worst line
+    besides these.
     """
     if whole <= noise_limit(own_scatter):
         return Level.EXPLAINS
@@ -287,7 +288,7 @@ def line_frequencies(cost: AnyCost) -> Real:
 
 
 def explanation(residual: Real, missed: Real, cost: Cost, own_scatter: Scatter) -> Explanation:
-    """What whitened residuals, shape (n_y,), of data with this scatter say; `missed` = their
+    """Analyse whitened residuals, shape (n_y,), of data with this scatter; `missed` = their
     expected sizes.
     """
     apart, worst = chi2_apart(residual, missed, line_frequencies(cost))
@@ -405,7 +406,7 @@ def correlations(cost: AnyCost, residual: Real) -> float:
 def explanations(
     cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter
 ) -> tuple[Explanation, ...]:
-    """What the whitened residuals of each response say."""
+    """Analyse the whitened residuals of each response."""
     ends = np.cumsum([len(part.measured) for part in cost.parts])
     rows = (cost.by_residual(a) for a in (residual, missed))
     each = zip(cost.parts, *rows, ends, strict=True)
@@ -416,7 +417,7 @@ def explanations(
 
 
 def explain(cost: AnyCost, residual: Real, missed: Real, own_scatter: Scatter) -> Explanation:
-    """What the residuals of all responses say together."""
+    """Analyse the residuals of all responses together."""
     each = explanations(cost, residual, missed, own_scatter)
     if len(each) == 1:
         return each[0]

@@ -1,4 +1,4 @@
-"""Whether a held input explains the actuator of a fitted structure.
+"""Test of whether a held input explains the actuator of a fitted structure.
 
 A digital drive holds its input from sample to sample, which is half a sample of delay and a little
 gain (`measurement.observation`). A fit that does not know it answers with a lag or a dead time of

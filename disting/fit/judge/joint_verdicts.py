@@ -1,4 +1,4 @@
-"""What is known of two structures where several responses are fitted together.
+"""Verdict on two structures where several responses are fitted together.
 
 More responses never make two structures harder to tell apart: what the first one tells apart stays
 apart, and what behaves the same in it need not do so in the others.
@@ -34,8 +34,8 @@ RENAMED = "A renaming of the parameters turns all responses of the one into thos
 def under_all(
     chain: Chain, other: Chain, cost: AnyCost, engine: Engine, limits: Limits
 ) -> Alternative | None:
-    """What another structure that the first response may not tell apart is under all of them, at
-    its places; None where they tell it apart.
+    """Relation of another structure, possibly indistinguishable in the first response, under all
+    responses, at its places; None where they distinguish it.
 
     By conditions and the exact decision over complex parameters. That all positive models are the
     same is known where a renaming of the parameters, within the limits, turns all responses of the
@@ -53,8 +53,8 @@ def under_all(
 
 
 def is_same_under_all(chain: Chain, other: Chain, cost: AnyCost, limits: Limits) -> bool:
-    """Whether a renaming of the parameters turns all responses of a chain into those of another,
-    and takes every range into that of the parameter that it becomes; both ways.
+    """Return True if a renaming of the parameters turns all responses of a chain into those of
+    another, and maps every range into that of the parameter's new name; in both directions.
     """
     # a fit of one response asks for none
     from disting.decide.positive import renamings
@@ -76,7 +76,9 @@ def alternatives_under_all(
     engine: Engine,
     limits: Limits,
 ) -> tuple[Alternative, ...]:
-    """What may behave the same as a chain in all responses, from what may in the first one."""
+    """Structures that may be equivalent to a chain in all responses, from those that may be so in
+    the first one.
+    """
     if len(cost.setups) == 1:
         return tuple(alternatives)
     each = (
@@ -106,8 +108,8 @@ def behaves_alike(
     other_entries: Mapping[str, float],
     task: Task,
 ) -> bool:
-    """Whether another structure with its own values has all responses too, with all sensors and
-    changes at some places.
+    """Return True if another structure with its own values has all responses too, with all sensors
+    and changes at some places.
 
     One thing is one mass in all responses; which one is not known of the other structure, so that
     each is tried.

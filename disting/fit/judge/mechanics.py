@@ -56,7 +56,7 @@ class Line:
 
     @property
     def actuators(self) -> tuple[Parts, ...]:
-        """What the actuator of each member adds."""
+        """Actuator terms of each member."""
         return tuple(actuator(member.candidate.chain) for member in self.members)
 
 

@@ -137,7 +137,7 @@ def _matrices(structure: Structure, p: Real) -> Real:
 
 @lru_cache(maxsize=REMEMBERED)
 def _shares(structure: Structure) -> Real:
-    """What each parameter at 1 adds to M, D and K, shape (n_p, 3, N, N)."""
+    """Contributions of each parameter at 1 to M, D and K, shape (n_p, 3, N, N)."""
     ones = dict.fromkeys(structure.parameters, 1.0)
     whole = np.stack(matrices(structure, ones))
     doubled = (matrices(structure, {**ones, name: 2.0}) for name in structure.parameters)

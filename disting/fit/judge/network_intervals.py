@@ -129,7 +129,7 @@ def _felt(plant: AnyNetworkPlant, whitened: WhitenedCost, best: Real) -> tuple[R
     """Return `felt` and `growth` of a valley."""
 
     def effects(p: Real) -> Real:
-        """What each value moves when it changes by itself, in units of the scatter."""
+        """Effect of a change of each single value, in units of the scatter."""
         with np.errstate(all="ignore"):
             columns = np.nan_to_num(whitened.of(plant, p)[1])
         return np.asarray(np.linalg.norm(columns, axis=0))

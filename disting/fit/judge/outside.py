@@ -322,8 +322,8 @@ def _named(names: Sequence[str], logarithms: Real) -> Values:
 def _judged(
     machine: _Machine, values: Values, judged: _Seen, n_parameters: int
 ) -> Iterator[Outside]:
-    """What the judged data say of a machine beside the chain of so many parameters; nothing where
-    it does not explain them, or the chain is better.
+    """Find machines other than the chain with this number of parameters that the judged data
+    support; none where they do not explain the data, or the chain is better.
     """
     cost, known = judged.whitened.cost, judged.whitened.known
     own, other = judged.whitened.residual(judged.response), judged.residual(machine, values)

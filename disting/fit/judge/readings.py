@@ -1,5 +1,5 @@
-"""How the data may be read otherwise: which lines are bad, which quantity a sensor shows, and what
-would fit where no candidate does.
+"""Other readings of the data: bad lines, the quantity of a sensor, and readings that would fit
+where no candidate does.
 
 What would fit: another sensor quantity, a reversed sensor, phases of the other sign, gains in dB, a
 zero-order hold, other places, one mass more. A chain with dampers, a lag and a dead time, of as
@@ -49,8 +49,8 @@ FEWEST = 12  # lines, from which on one of them is not many
 
 
 def read_in_words(measured: FrequencyResponse) -> str:
-    """How a response was read, such as: a.csv, column 2 (Re): frequency in Hz (column 1), real
-    part (column 2), imaginary part (column 3); sensor: acceleration (assumed).
+    """Reading of a response, such as: a.csv, column 2 (Re): frequency in Hz (column 1), real part
+    (column 2), imaginary part (column 3); sensor: acceleration (assumed).
     """
     origin = f"{measured.origin}: " if measured.origin else ""
     reading = f"{measured.reading}; " if measured.reading else ""

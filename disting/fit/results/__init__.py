@@ -1,3 +1,3 @@
-"""What the structures that are left say of the machine: with which uncertainty, around a
+"""Predictions of the remaining structures for the machine: with their uncertainty, around a
 controller, for other programs.
 """

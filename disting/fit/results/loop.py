@@ -81,7 +81,8 @@ class Controller:
 
 
 def read_controller(text: str) -> Controller:
-    """What P=2,I=30,loop=velocity says, or a JSON file with these names; raises InputError.
+    """Parse a controller such as P=2,I=30,loop=velocity, or a JSON file with these names; raises
+    InputError.
 
     >>> read_controller("P=2,V=10,loop=cascade").V
     10.0

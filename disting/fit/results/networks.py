@@ -1,4 +1,6 @@
-"""What a fit of networks found: each with its values, which explain the data, which are left."""
+"""Result of a fit of networks: each with its values, those that explain the data, those that
+remain.
+"""
 
 from dataclasses import dataclass, field
 
@@ -63,7 +65,7 @@ class FittedNetwork:
 
     @property
     def is_left(self) -> bool:
-        """Whether it explains the data and no other one excludes it."""
+        """True if it explains the data and no other network excludes it."""
         return self.explains and not self.excluded_by
 
     def to_dict(self) -> dict[str, object]:
@@ -89,8 +91,8 @@ class FittedNetwork:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NetworkSelection(NotebookTable):
-    """What was found: `fits`, the selected one first, then by chi2; all candidates (`networks`);
-    the responses (`measured`), and `scatter` of the lines.
+    """Result of a selection of networks: `fits`, the selected one first, then by chi2; all
+    candidates (`networks`); the responses (`measured`), and `scatter` of the lines.
     """
 
     fits: tuple[FittedNetwork, ...]

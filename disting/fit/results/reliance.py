@@ -1,5 +1,5 @@
-"""What may be relied on whichever of the structures that a fit leaves is the machine: ranges over
-all of them and their uncertainty.
+"""Statements that hold for all structures that a fit leaves: ranges over all of them and their
+uncertainty.
 
 Each structure is drawn many times (`samples`), its own fit among the draws; a range holds 95 % of
 the draws of every structure. What behaves as a fitted structure does at the sensor (its twins) has
@@ -155,7 +155,7 @@ class _Towards(SquaredCost):
         return self.cost.n_residuals
 
     def residual(self, response: Complex) -> Real:
-        """What is left to the aim, shape (..., n_y)."""
+        """Residual relative to the aim, shape (..., n_y)."""
         return np.asarray(self.cost.residual(response) - self.aim)
 
     def sensitivity(self, response: Complex, gradient: Complex) -> Real:
@@ -193,7 +193,7 @@ ROOTS = {"antiresonance": zeros, "resonance": poles}
 
 
 class Kind(StrEnum):
-    """What a statement is of: a quantity, how far responses lie apart, whether a loop is stable."""
+    """Subject of a statement: a quantity, the distance of responses, the stability of a loop."""
 
     RANGE = "range"
     APART = "apart"
@@ -246,7 +246,8 @@ class Statement:
 def statements(
     left: Sequence[Member], task: Task, controller: Controller | None = None
 ) -> tuple[Statement, ...]:
-    """What holds for all structures that the data do not exclude; nothing where none is left.
+    """Statements that hold for all structures that the data do not exclude; none where no structure
+    remains.
 
     Raises InputError where no margins can be told.
     """
@@ -346,7 +347,7 @@ def nearest(roots: Sequence[complex], root: complex, ratio: float = SAME) -> com
 
 
 def _at_the_sensor(fitted: Sequence[ParameterSamples], omega: Real) -> Statement:
-    """How far the responses lie apart."""
+    """Distance of the responses."""
     responses = (Plant(sample.chain.structure, omega).response(sample.p) for sample in fitted)
     total = sum(sample.alike for sample in fitted)
     return _apart("response at the sensor", responses, omega, total)
@@ -376,7 +377,7 @@ def _hertz(omega: Real) -> str:
 
 
 def _at_the_load(every: Sequence[ParameterSamples], omega: Real, family: str) -> Statement:
-    """How far the positions of the loads per force lie apart, of fitted structures and twins."""
+    """Distance of the positions of the loads per force, of fitted structures and twins."""
     responses = (position_of_load(sample.chain, sample.p, omega) for sample in every)
     return _apart("position of the load per force", responses, omega, len(every), family)
 

@@ -1,4 +1,4 @@
-"""What a selection found, and how sure its values and its criteria are.
+"""Result of a selection, and the certainty of its values and criteria.
 
 With g = d ln G / d ln p, shape (n_p,) at each frequency, ln |G| and arg G have by the chain rule
 the standard errors
@@ -174,8 +174,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Selection(NotebookTable):
-    """What a selection found. `selected` is None where no candidate is admissible; candidates in
-    the order of the cost on test.
+    """Result of a selection. `selected` is None where no candidate is admissible; candidates in the
+    order of the cost on test.
 
     `explanation` is that of the selected candidate, else of the best one; `members`: the
     structures that the data do not exclude, the selected one first, none where nothing explains

@@ -44,8 +44,8 @@ def comparable(cost: float) -> float:
 
 
 class Case(IntEnum):
-    """Which residuals: complex plane (7), amplitude and phase (12), logarithm of the amplitude
-    and phase (14).
+    """Definition of the residuals: complex plane (7), amplitude and phase (12), logarithm of the
+    amplitude and phase (14).
 
     >>> Case(3) is Case.LOGARITHM
     True
@@ -163,7 +163,7 @@ class Cost(SquaredCost):
 
     @property
     def observation(self) -> Observation | None:
-        """How lines show a response; None where they show it as it is."""
+        """Observation by which lines show a response; None where they show it unchanged."""
         window, hold = self.measured.window, self.measured.hold
         segment: tuple[float, int] | None = None
         if window is not None and window.ratio is None:
@@ -187,7 +187,7 @@ class Cost(SquaredCost):
 
     @property
     def setups(self) -> tuple[Setup, ...]:
-        """How the responses were measured."""
+        """Setups of the responses."""
         return (Setup(),)
 
     def setups_of(self, structure: Structure) -> tuple[Setup, ...]:

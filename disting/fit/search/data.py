@@ -143,8 +143,8 @@ def check_range(data: FrequencyResponse) -> None:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Weights:
-    """What the lines of all responses count: of the `first` cost's, which was measured another time
-    too where there is a `test`, and of `further` ones, each in units of its own scatter.
+    """Weights of the lines of all responses: of the `first` cost's, measured a second time where
+    there is a `test`, and of `further` ones, each in units of its own scatter.
 
     Weights are 1/rho of each line, rho as `scatter` tells it, what the machine changes by until its
     test data included; or those by `lines`, of each response divided by what its weighted residuals
@@ -159,7 +159,7 @@ class Weights:
 
     @property
     def by_scatter(self) -> bool:
-        """Whether lines count by what they scatter."""
+        """True if lines are weighted by their scatter."""
         return self.lines is None and not self.alike
 
     def training(self, fitted: Sequence[Complex] = ()) -> AnyCost:

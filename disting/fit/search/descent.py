@@ -43,12 +43,12 @@ class Box:
 
     @property
     def free(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-        """Which parameters are not fixed."""
+        """Flags of the parameters that are not fixed."""
         return self.low < self.high
 
     @property
     def is_open(self) -> bool:
-        """Whether nothing is bounded."""
+        """True if there are no bounds."""
         return bool(np.all(self.low <= 0) and np.all(np.isinf(self.high)))
 
     def clipped(self, p: Real) -> Real:

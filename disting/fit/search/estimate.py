@@ -53,8 +53,8 @@ NESTED = 1e-9  # relative excess of cost that a candidate may have over one that
 
 @dataclass(frozen=True)
 class Task:
-    """What every candidate of one fit shares. `bounds` and `fixed` by parameter name; `sign` = -1:
-    sensor reversed.
+    """Settings that all candidates of one fit share. `bounds` and `fixed` by parameter name; `sign`
+    = -1: sensor reversed.
 
     `divided`: each candidate takes one of so many parts of its starts. Where candidates exchange
     their fits, what one of them finds helps all, and together they try every kind of start.
@@ -84,8 +84,8 @@ class Task:
         return self.cost.plant(chain.structure, self.sign)
 
     def names(self, chain: Chain) -> tuple[str, ...]:
-        """What is fitted, in the order of parameter vectors: the chain's parameters, then dead
-        times of single responses.
+        """Names of the fitted values, in the order of parameter vectors: the chain's parameters,
+        then dead times of single responses.
         """
         return (*chain.parameters, *(self.cost.delays if chain.dead_time else ()))
 

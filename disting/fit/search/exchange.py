@@ -236,12 +236,12 @@ def with_smaller(candidates: Iterable[Chain]) -> set[Chain]:
 
 
 def _is_given(chain: Chain, task: Task) -> bool:
-    """Whether there is nothing to search."""
+    """Return True if there is nothing to search."""
     return set(task.names(chain)) <= set(task.fixed)
 
 
 def _helpful(chain: Chain, own_estimates: Mapping[Chain, Estimate]) -> dict[Chain, Estimate]:
-    """What one candidate's starts come from; a worker needs no more."""
+    """Estimates from which one candidate's starts are derived; a worker needs no others."""
     near = {*(c for _, c in merge(chain)), *shorten(chain)}
     return {c: own_estimates[c] for c in own_estimates if c in near}
 

@@ -137,7 +137,7 @@ class JointCost(SquaredCost):
 
     @property
     def case(self) -> Case:
-        """Which residuals."""
+        """Definition of the residuals."""
         return self.parts[0].case
 
     @property

@@ -35,8 +35,8 @@ MOST_PHASE = 6.0  # radians at the last line
 
 
 def is_across(chain: Chain) -> bool:
-    """Whether force and sensor are at one end of a free chain, or between the ends of two, of which
-    one stands on the ground: then the modes fix masses and springs.
+    """Return True if force and sensor are at one end of a free chain, or between the ends of two
+    chains, one of them grounded: then the modes fix masses and springs.
 
     >>> is_across(Chain(3)), is_across(Chain(3, 1, 1, 2, 1, 2)), is_across(Chain(3, meas_plus=3))
     (True, True, False)

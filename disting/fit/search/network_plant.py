@@ -230,7 +230,7 @@ AnyNetworkPlant = NetworkPlant | NetworkPlants
 
 
 def is_lossless(network: Network) -> bool:
-    """Whether all powers of s differ by even numbers: its resonances are not damped.
+    """Return True if all powers of s differ by even numbers: its resonances are undamped.
 
     >>> from disting.network import network_of
     >>> [is_lossless(network_of(t)) for t in ("1~2; F1; S2", "1=2; F1; S2", "p(L1,C1)")]

@@ -35,7 +35,7 @@ ROUNDING = 2.0**-52
 
 
 class Differentiable(Protocol):
-    """What yields a response and its derivatives: a plant, or several."""
+    """Source of a response and its derivatives: one plant, or several."""
 
     def response(self, p: Real, /) -> Complex:
         """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p)."""
@@ -81,8 +81,8 @@ class Plant:
 
     @np.errstate(all="ignore")  # where an interval has no end, values may overflow
     def motion(self, p: Real) -> "Motion":
-        """What the force moves; any sensor on the same machine at the same lines shows a part of
-        it.
+        """Motion caused by the force; any sensor on the same machine at the same lines measures a
+        part of it.
         """
         ports, pivots = self.structure.ports, self._pivots(p)
         return Motion(*pivots, _solved(*pivots, ports.act_minus, ports.act_plus, self.still))
@@ -123,7 +123,7 @@ class Plant:
         return self._shown_with(self._factor(p) * receptance, gradient)
 
     def _shown(self, response: Complex) -> Complex:
-        """What lines show, shape (..., n_f), of responses, shape (..., n)."""
+        """Observed values, shape (..., n_f), of responses, shape (..., n)."""
         if self.observation is None:
             return response
         rows = response.reshape(-1, response.shape[-1])
@@ -213,7 +213,9 @@ class Plant:
 
     @cached_property
     def _rows(self) -> dict[str, Rows]:
-        """Which joints (springs, dampers) or masses (ground dampers, from 0) they belong to."""
+        """Indices of the joints (springs, dampers) or masses (ground dampers, from 0) of the
+        parameters.
+        """
         places: dict[str, list[int]] = {}
         for element in self.structure.elements:
             places.setdefault(element.kind, []).append(element.at - (element.kind in "mb"))

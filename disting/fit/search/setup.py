@@ -1,4 +1,4 @@
-"""How a further response of the same machine was measured: what differs from the first one.
+"""Setup of a further response of the same machine: the differences from the first one.
 
 Force and sensor may be elsewhere, and the machine may be changed as in any experiment. Places are
 written as the commands write ports, such as 2, last or 1:3, since candidates of several sizes are
@@ -71,7 +71,7 @@ class Setup:
         return ", ".join(said) or "the first response"
 
     def experiment(self, n: int) -> Experiment:
-        """What it is on a chain of n masses, without quantity, sign and dead time; raises
+        """Experiment on a chain of n masses, without quantity, sign and dead time; raises
         InputError.
         """
         force, sensor = (
@@ -121,7 +121,9 @@ class Setup:
         return f"all masses of a chain of {n} are locked: leave one that moves" if whole else ""
 
     def is_silent(self, structure: Structure) -> bool:
-        """Whether the sensor never moves: no mass that it shows is joined to one that is driven."""
+        """Return True if the sensor never moves: no mass that it measures is connected to a driven
+        one.
+        """
         return Entry(structure, self.experiment(structure.n_masses)).is_silent
 
 
@@ -166,7 +168,7 @@ def measured_chain(chain: Chain, setups: Sequence[Setup]) -> MeasuredChain:
 
 
 def measurable(chain: Chain, setups: tuple[Setup, ...]) -> tuple[bool, ...]:
-    """Which responses a chain has: its masses are there, and the sensor moves."""
+    """Flags of the responses that a chain has: its masses exist, and the sensor moves."""
     structure = chain.structure
     return tuple(not (s.missing(structure) or s.is_silent(structure)) for s in setups)
 

@@ -101,7 +101,7 @@ def at_modes(chain: Chain, measured: FrequencyResponse, sign: int) -> Iterator[P
 
 
 def is_seen_at_one_end(chain: Chain) -> bool:
-    """Whether force and sensor are the same end of a free chain: then poles and zeros fix
+    """Return True if force and sensor are the same end of a free chain: then poles and zeros fix
     masses and springs.
     """
     return (

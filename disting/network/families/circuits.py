@@ -53,7 +53,7 @@ def _letters(tree: Tree) -> str:
 
 
 def count_of(tree: Tree, kinds: str) -> int:
-    """How many elements are of these kinds."""
+    """Number of elements of these kinds."""
     return sum(letter in kinds for letter in _letters(tree))
 
 

@@ -1,4 +1,6 @@
-"""What commands, catalogues and pages know of a family of networks, and of families of one kind."""
+"""Interface of a family of networks, and of families of one kind, for commands, catalogues and
+pages.
+"""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass

@@ -48,8 +48,8 @@ def _form(masses: int, joints: Sequence[Edge], force: Edge, sensor: Edge) -> tup
 
 
 def _is_whole(masses: int, joints: Sequence[Edge], force: Edge, sensor: Edge) -> bool:
-    """Whether the transfer function of positions has two poles for each mass, seen at one choice of
-    values: at special ones it can have fewer, never more.
+    """Return True if the transfer function of positions has two poles for each mass, tested at one
+    choice of values: at special ones it can have fewer, never more.
     """
     s = symbols(["s"])["s"]
     try:

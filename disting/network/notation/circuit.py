@@ -87,7 +87,7 @@ def netlist(text: str, name: str) -> Network:
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
-    """How a notation writes parallel parts and series in brackets; `dashes`: series has a sign
+    """Syntax of a notation for parallel parts and series in brackets; `dashes`: series has a sign
     `joint` between its parts, parallel parts have commas.
     """
 

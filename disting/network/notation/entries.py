@@ -71,7 +71,9 @@ def entry_of(network: Network) -> dict[str, object]:
 
 
 def _is_read_back(entry: Entry, network: Network) -> bool:
-    """Whether the entry is this network: a list of flows has no two alike, nor names for them."""
+    """Return True if the entry is this network: a list of flows has no two equal ones, and no names
+    for them.
+    """
     try:
         return network_of_entry(entry, network.name) == network
     except InputError:

@@ -39,7 +39,7 @@ LONGEST = 30  # characters of a number
 
 @dataclass(frozen=True, slots=True)
 class DriveTrain:
-    """What a file describes: the machine, and the values of its elements."""
+    """Content of a file: the machine, and the values of its elements."""
 
     network: Network
     values: dict[str, float]
@@ -60,7 +60,7 @@ class _Part:
 
 @dataclass(slots=True)
 class _Places:
-    """What is built while components are read: parts by name, and which places are one."""
+    """State of the parser while components are read: parts by name, and places that are one."""
 
     named: dict[str, _Part] = field(default_factory=dict)
     parts: list[_Part] = field(default_factory=list)

@@ -1,5 +1,5 @@
-"""What a fit says to somebody who reads a title: what was found, three numbers, the rule by which
-the structure was chosen.
+"""Title area of the page of a fit: the result, three numbers, the rule by which the structure was
+chosen.
 
 Rows of the tables of numbers: what a model says about the machine, its parameters, and their
 intervals.
@@ -262,7 +262,7 @@ def _third(selection: Selection, results: Sequence[ParameterRow]) -> KeyFigure:
 
 
 def _rule(selection: Selection) -> str:
-    """How the structure was chosen."""
+    """Rule by which the structure was chosen."""
     left = f"the data do not exclude (level {percent(LEVEL)})"
     if selection.rule is Rule.PAPER:
         left = f"the paper's three criteria admit and {left}"

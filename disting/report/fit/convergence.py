@@ -1,4 +1,4 @@
-"""Whether the optimum is one: costs that all starts reached, and profiles of single parameters."""
+"""Convergence of a fit: costs that all starts reached, and profiles of single parameters."""
 
 from collections.abc import Sequence
 from math import ceil, isfinite
@@ -29,7 +29,7 @@ def hits(candidate: Candidate) -> int:
 
 
 def hits_in_words(candidate: Candidate) -> str:
-    """How many starts reached the best cost."""
+    """Number of starts that reached the best cost, in words."""
     estimate = candidate.estimate
     said = f"{hits(candidate)} of {len(estimate.costs)} starts ({percent(estimate.hit_rate)})"
     return f"{said} within {percent(REACHED)} of the best cost"

@@ -131,7 +131,7 @@ def _steps(panel: "Axes", thresholds: Real, counts: Real, used: float) -> None:
 
 
 def columns(thresholds: Thresholds) -> str:
-    """What the columns of `HEADS` say, in one sentence.
+    """Meaning of the columns of `HEADS`, in one sentence.
 
     >>> print(columns(Thresholds()).partition(";")[0])
     jointly, some combination of parameters (condition index, critical above 30)
@@ -155,7 +155,7 @@ class Limit:
 
     @property
     def holds(self) -> bool:
-        """Whether it is fulfilled."""
+        """True if the limit is satisfied."""
         return self.value <= self.threshold
 
     @property

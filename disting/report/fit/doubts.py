@@ -53,12 +53,12 @@ def unseen(selection: Selection) -> Iterator[str]:
 
 
 def _of_each(cost: AnyCost) -> list[str]:
-    """Which response, where there are several."""
+    """Names of the responses, where there are several."""
     return [""] if len(cost.setups) == 1 else [f" of {setup.text}" for setup in cost.setups]
 
 
 def suspicious_data(cost: AnyCost) -> Iterator[str]:
-    """What looks wrong in the data."""
+    """Suspicious features of the data."""
     for part, of in zip(cost.parts, _of_each(cost), strict=True):
         yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
 
@@ -94,7 +94,7 @@ def bad(selection: Selection) -> tuple[str, ...]:
 
 
 def doubtful_deviations(selection: Selection) -> Iterator[str]:
-    """What contradicts the standard deviations of the data."""
+    """Contradictions to the standard deviations of the data."""
     if selection.explanation.scatter.doubt:
         yield selection.explanation.scatter.doubt
 
@@ -139,9 +139,9 @@ def differing_parameters(both: tuple[Disagreement, ...]) -> str:
 
 
 def amplitude(selection: Selection) -> tuple[str, ...]:
-    """What shows that values hold for this amplitude only, one sentence for each response:
-    distortion of its own, and the difference to another measurement of it. Empty where the machine
-    is linear as far as the data show.
+    """Evidence that values hold for this amplitude only, one sentence for each response: distortion
+    of its own, and the difference to another measurement of it. Empty where the machine is linear
+    as far as the data show.
     """
     own, changes = list(_nonlinearity(selection)), list(_machine_change(selection))
     if len(own) == len(changes) == 1:
@@ -158,19 +158,19 @@ def distorts(selection: Selection) -> bool:
 
 
 def hold(selection: Selection) -> str:
-    """What to say beside values and intervals; empty where they hold for any amplitude, as far as
-    the data show, and nothing systematic is missed.
+    """Caveat for values and intervals; empty where they hold for any amplitude, as far as the data
+    show, and nothing systematic is missed.
     """
     return " and ".join(_limits(selection))
 
 
 def not_counted(selection: Selection) -> str:
-    """What the ± of such values does not count; empty where `hold` is."""
+    """Effects that the ± of such values does not include; empty where `hold` is."""
     return "; ".join(_limits(selection).values())
 
 
 def _limits(selection: Selection) -> dict[str, str]:
-    """What values hold for, each with what may shift them beyond their ±."""
+    """Conditions for values, each with the effect that may shift them beyond their ±."""
     if selection.question:
         return {}
     is_near = selection.explanation.level is Level.NEARLY

@@ -1,4 +1,4 @@
-"""What to measure next after a fit, in the first sentence."""
+"""Next measurement after a fit, in the first sentence."""
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence

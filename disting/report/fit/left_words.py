@@ -1,4 +1,4 @@
-"""What to measure next after a fit: sentences, rows and plain data of what it left."""
+"""Next measurements after a fit: sentences, rows and plain data on the remaining structures."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -59,8 +59,8 @@ class ChainAdvice:
                 yield a, b
 
     def sure(self, a: int, item: Item, b: int) -> bool:
-        """Whether an item tells structure a from b by what is known of all parameters: where both
-        are of one group, some with which it does not may be left.
+        """Return True if an item distinguishes structure a from b by what is known of all
+        parameters: where both are of one group, some that it does not distinguish may remain.
         """
         for group in self.groups:
             names = [self.left[k].name for k in (a, b)]
@@ -89,8 +89,8 @@ def set_in_words(lead: ChainAdvice) -> Iterator[str]:
 
 
 def measured_in_words(lead: ChainAdvice) -> Iterator[str]:
-    """What numbers rest on, a sentence for each pair, then the menu of the selected structure in
-    numbers.
+    """Sentences on the basis of the numbers, one for each pair, then the menu of the selected
+    structure in numbers.
     """
     if (seen := lead.seen) is None:
         yield f"{lead.source} does not name the lines of its data: fit again to get powers"
@@ -117,7 +117,9 @@ def measured_in_words(lead: ChainAdvice) -> Iterator[str]:
 
 
 def sentence(lead: ChainAdvice, a: int, b: int) -> str:
-    """How structure b stands to a, and the cheapest experiment that shows it."""
+    """Sentence on the relation of structure b to a, and on the cheapest experiment that
+    distinguishes them.
+    """
     survivor, other = lead.left[a], lead.left[b]
     standing = lead.stood.reason(a, b)
     said = f"{other.name}: {SAYS[standing].format(survivor.name)}"
@@ -196,7 +198,7 @@ def _measured(lead: ChainAdvice, seen: Predictions) -> dict[str, Any]:
 
 
 def _least(lead: ChainAdvice, seen: Predictions) -> Iterator[dict[str, Any]]:
-    """What tells a structure least from another one, for each item of its menu."""
+    """Weakest distinction of a structure from another one, for each item of its menu."""
     for a, b in permutations(range(len(lead.left)), 2):
         for item in cheapest_first(lead, seen, a):
             nearest = seen.least(a, item, b)

@@ -1,5 +1,5 @@
-"""What leads on from a fit: pages of the catalogues, where they lie, and ready commands for
-each structure.
+"""Links from a fit: pages of the catalogues with their addresses, and ready commands for each
+structure.
 """
 
 import shlex
@@ -57,7 +57,7 @@ class Site:
 
     @property
     def home(self) -> str | None:
-        """What the addresses of its pages begin with; None where it has no guide."""
+        """Base address of its pages; None where it has no guide."""
         is_there = (self.root / "guide" / "index.html").is_file()
         return f"{self._way(self.root.resolve())}/" if is_there else None
 
@@ -107,8 +107,8 @@ def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
 
 
 def new_names(selection: Selection) -> str:
-    """What the parameters of the described candidate are called in the structure that it is
-    named after; "" for the same.
+    """Names of the parameters of the described candidate in the structure that it is named after;
+    "" for the same.
     """
     form = listed_form(selection.described.chain)
     other = ", ".join(f"{old} is {new} there" for old, new in form.renaming.items() if old != new)

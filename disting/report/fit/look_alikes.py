@@ -69,7 +69,7 @@ def better_in_words(selection: Selection) -> str:
 
 
 def commands_for_outside(selection: Selection) -> Iterator[str]:
-    """How to fit these machines, or, where none is found, others."""
+    """Commands to fit these machines, or, where none is found, others."""
     found = better_outside(selection)
     if not any(c.chain.gap for c in selection.candidates) and (
         not found or any(x.kind is LookAlikeKind.ELASTIC_BASE for x in found)
@@ -110,7 +110,7 @@ def exchanged(selection: Selection) -> tuple[Candidate, ...]:
 
 
 def one_set_of(selection: Selection) -> str:
-    """What to say beside values of which there are other sets with the same response, else ""."""
+    """Caveat for values of which there are other sets with the same response, else ""."""
     count = len(exchanged(selection))
     return f"for one of {count + 1} sets with the same response" if count else ""
 

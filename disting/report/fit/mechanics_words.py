@@ -110,7 +110,7 @@ def with_or(words: Sequence[str]) -> str:
 
 
 def _shared(actuators: Sequence[Parts]) -> list[str]:
-    """What every actuator adds."""
+    """Elements that every actuator adds."""
     return [part for part in ACTUATOR.values() if all(part in adds for adds in actuators)]
 
 

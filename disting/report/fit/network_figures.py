@@ -43,8 +43,8 @@ LARGEST = 0.98  # quantile of the residuals that the axis shows
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Drawn:
-    """What the figures of one response show: data, line of the described network, lines of the
-    others that are left.
+    """Content of the figures of one response: data, line of the described network, lines of the
+    remaining others.
     """
 
     series: Series

@@ -158,7 +158,7 @@ def answer_in_words(plan: Plan) -> str:
 
 
 def _words(model: AnyStructure) -> tuple[str, str]:
-    """What is measured, and by what."""
+    """Measured response and its source."""
     return WORDS[model.sort]
 
 
@@ -201,7 +201,7 @@ def _same(plan: Plan, rival: Rival) -> str:
 
 
 def _limits(rival: Rival) -> str:
-    """What has become of the elements that have no effect."""
+    """Limits of the elements without effect."""
     ends = [
         f"{name} -> {'0' if limit is Limit.ZERO else 'infinity'}"
         for name, limit in rival.limits.items()

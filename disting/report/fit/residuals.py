@@ -146,8 +146,8 @@ def bands_in_words(
     test: FrequencyResponse | None = None,
     at: int = 0,
 ) -> tuple[list[str], list[str]]:
-    """What bars and bands are, with their sizes: sentences for below the Bode diagram, and for
-    below the residuals; `at` = which one of several responses.
+    """Meaning of bars and bands, with their sizes: sentences for below the Bode diagram, and for
+    below the residuals; `at` = index of the response among several.
     """
     candidate, task, omega = selection.described, selection.task, train.omega
     misses = misfits(selection, train, test, at)

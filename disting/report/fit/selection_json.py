@@ -167,7 +167,7 @@ def _joint_to_dict(selection: Selection) -> dict[str, Any]:
 
 
 def _explained(said: Explanation) -> dict[str, Any]:
-    """What the judged data of one response say."""
+    """Plain data of the explanation of one response's judged data."""
     return {
         "chi2_per_line": said.chi2,
         "scatter": said.scatter.typical,
@@ -186,7 +186,7 @@ def _measured(selection: Selection) -> list[FrequencyResponse]:
 
 
 def _data(measured: FrequencyResponse) -> dict[str, Any]:
-    """How a response was read, and what was assumed or changed."""
+    """Plain data on the reading of a response, with assumptions and changes."""
     return {
         "origin": measured.origin,
         "reading": measured.reading,

@@ -129,7 +129,7 @@ def fit_page(
 def _results(
     selection: Selection, results: Sequence[Result], train: FrequencyResponse
 ) -> list[ParameterRow]:
-    """What the model says about the machine, with what other sets of values say."""
+    """Rows of results on the machine, with those of other sets of values."""
     others = [physical(c, selection.task) for c in exchanged(selection)] if results else []
     return [
         with_others(result_row(r, train), r.value, [(x.value, result_row(x, train)) for x in rest])
@@ -172,7 +172,7 @@ def _question_page(
 
 
 def _machine(candidate: Candidate, selection: Selection) -> dict[str, str]:
-    """What the page says and shows of the structure."""
+    """Texts and drawing of the structure on the page."""
     machine = with_all_sensors(candidate.chain, selection)
     return {
         "title": name(candidate.chain),
@@ -217,8 +217,8 @@ def reasons(selection: Selection) -> list[tuple[str, str]]:
 
 
 def alternatives(selection: Selection) -> list[tuple[str, list[tuple[str, str]]]]:
-    """What the same data can come from, and what is not decided: an introduction, then names
-    and reasons.
+    """Other possible origins of the same data, and open questions: an introduction, then names and
+    reasons.
     """
     return [
         (
@@ -278,7 +278,7 @@ def _choice(selection: Selection) -> str:
 
 
 def _scatter(selection: Selection) -> str:
-    """What the absolute check was made with."""
+    """Scatter used in the absolute check."""
     said = selection.explanation
     return (
         f"A line scatters by {percent(said.scatter.typical)}, known from {said.scatter.source}."
@@ -311,7 +311,7 @@ def _starts(candidate: Candidate) -> str:
 
 
 def choices(selection: Selection) -> list[tuple[str, str]]:
-    """What was set, for the foot of the page."""
+    """Settings, for the foot of the page."""
     task = selection.task
     bounds = [
         f"{n} {readable(low)}..{readable(high)}" for n, (low, high) in sorted(task.bounds.items())

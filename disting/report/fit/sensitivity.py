@@ -1,5 +1,5 @@
-"""What the criteria say about the parameters of one model: importance by parameter,
-collinearity by set of parameters.
+"""Sensitivity of the parameters of one model by the criteria: importance by parameter, collinearity
+by set of parameters.
 """
 
 from collections.abc import Sequence

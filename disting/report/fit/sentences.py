@@ -1,5 +1,5 @@
-"""What an engineer has to know of a selection, in sentences: the truth first, then what is
-suspicious. The commands that lead on: `links`.
+"""Sentences on a selection for an engineer: its limitations first, then suspicious findings. The
+commands that lead on: `links`.
 
 Structures are named as the commands read them, such as 2:1+b2+delay.
 """
@@ -214,7 +214,7 @@ def _outside(selection: Selection) -> Iterator[str]:
 
 
 def misfit_in_words(said: Explanation) -> str:
-    """What a structure misses that explains the data apart from it."""
+    """Misfit of a structure that explains the data otherwise."""
     if said.misses:
         return "; ".join(m.sentence for m in said.misses)
     most = noise_limit(said.scatter)
@@ -250,7 +250,7 @@ def _structure(selection: Selection) -> Iterator[str]:
 
 
 def _common(selection: Selection) -> Iterator[str]:
-    """What all structures that are left have in common."""
+    """Common features of all structures that are left."""
     if selection.members:
         yield structure_in_words(fold(selection.members))
         yield from ["force and sensor are those of the first response"] * _is_joint(selection)
@@ -268,7 +268,7 @@ def _standing(selection: Selection, first: str) -> str:
 
 
 def _to_decide(selection: Selection) -> Iterator[str]:
-    """What would decide more between the structures that are left."""
+    """Measures that would distinguish more of the structures that are left."""
     if not selection.members:
         yield "more lines, a wider band or known parameters (--fix) may determine all parameters"
         return
@@ -360,7 +360,7 @@ def _missed(selection: Selection) -> Iterator[str]:
 
 
 def _unexplained(selection: Selection) -> Iterator[str]:
-    """What may explain the data."""
+    """Possible explanations of the data."""
     yield from _other_quantities(selection)
     if selection.explanation.too_few:
         yield f"measure at least {selection.explanation.needed} lines"

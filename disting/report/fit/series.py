@@ -39,7 +39,7 @@ class Series:
 
     @property
     def has_bars(self) -> bool:
-        """Whether the data themselves tell how much they scatter."""
+        """True if the data themselves give their scatter."""
         return self.measured.deviation is not None or self.measured.coherence is not None
 
 

@@ -211,7 +211,9 @@ def _laid_out(width: float, height: float, draw: Callable[["Figure"], None]) -> 
 
 
 def is_narrow(figure: "Figure") -> bool:
-    """Whether it is drawn for a phone: panels one below the other, fewer columns in the legend."""
+    """Return True if it is drawn for a phone: panels one below the other, fewer columns in the
+    legend.
+    """
     return bool(figure.get_figwidth() < WIDE)
 
 
@@ -222,8 +224,8 @@ def heading(figure: "Figure", text: str) -> None:
 
 
 def _file(figure: "Figure", kind: str) -> bytes:
-    """What `savefig` writes, without its rehearsal: it draws all twice, the first time for a
-    layout that is known here.
+    """Content that `savefig` writes, without its rehearsal: it draws everything twice, the first
+    time for a layout that is known here.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.backends.backend_pdf import FigureCanvasPdf

@@ -189,7 +189,7 @@ def typeset(text: str) -> str:
 
 
 def cost_in_words(cost: AnyCost) -> str:
-    """What J adds up.
+    """Terms of the cost J in words.
 
     >>> import numpy as np
     >>> from disting.fit.search.cost import Cost
@@ -214,8 +214,8 @@ def fit_in_words(
     test: FrequencyResponse | None = None,
     at: int = 0,
 ) -> str:
-    """How much of the data the described candidate reproduces, see `fit_percent`; `at` = which one
-    of several responses.
+    """Share of the data that the described candidate reproduces, see `fit_percent`; `at` = index of
+    the response among several.
     """
     candidate, task = selection.described, selection.task
     setups = task.cost.setups
@@ -233,8 +233,8 @@ def fit_in_words(
 
 
 def fits_of(selection: Selection, candidate: Candidate) -> list[tuple[str, str]]:
-    """What each response is, and how much of its training data a candidate reproduces, see
-    `fit_percent`; nothing where there is one response.
+    """Description of each response, and the share of its training data that a candidate reproduces,
+    see `fit_percent`; empty where there is one response.
     """
     cost = selection.task.cost
     if len(cost.parts) == 1:

@@ -102,12 +102,12 @@ def _default(action: argparse.Action) -> str:
 
 
 def _takes(action: argparse.Action) -> bool:
-    """Whether a value follows."""
+    """Return True if a value follows."""
     return action.nargs != 0
 
 
 def _value(action: argparse.Action) -> str:
-    """How the value is written; of choices it is those."""
+    """Notation of the value; for choices, the choices themselves."""
     if action.metavar is not None:
         return str(action.metavar)
     if action.choices:
@@ -120,7 +120,7 @@ def _kept(action: argparse.Action) -> bool:
 
 
 def _place(action: argparse.Action) -> str:
-    """How an argument stands in a call."""
+    """Notation of an argument in a call."""
     if not action.option_strings:
         value = _value(action)
         return {"*": f"[{value} ...]", "+": f"{value} [...]", "?": f"[{value}]"}.get(

@@ -1,5 +1,5 @@
-"""What the reference says of a name: its signature, its docstring, its members. Definitions
-are found in the package's source, without importing it.
+"""Reference entry of a name: its signature, its docstring, its members. Definitions are found in
+the package's source, without importing it.
 
 A name that a package hands on (`from .. import X as X`) is followed to the module that defines it.
 Types and defaults are those that stand in the source: an annotation that is evaluated reads
@@ -30,7 +30,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Module:
-    """What a module defines and imports, by name, and its docstring.
+    """Definitions and imports of a module, by name, and its docstring.
 
     `texts`: the string below an assignment, which says what it is. `handed_on`: names that it
     imports for others.
@@ -155,7 +155,7 @@ EXCEPTION = re.compile(r"\b[A-Z]\w+(?:Error|Violation|Warning)\b")
 
 
 class Kind(StrEnum):
-    """What a name is."""
+    """Kind of a name."""
 
     CLASS = "class"
     FUNCTION = "function"
@@ -262,7 +262,9 @@ def _fields(place: Place, node: ast.ClassDef) -> Iterator[Entry]:
 
 
 def _fields_as_arguments(fields: Sequence[Entry], node: ast.ClassDef) -> tuple[Argument, ...]:
-    """How a record is made: its fields, by keyword only where its decorator says so."""
+    """Arguments of a record's constructor: its fields, by keyword only where its decorator says
+    so.
+    """
     arguments = [Argument(m.name, m.returns, m.value) for m in fields]
     if any("kw_only=True" in ast.unparse(d) for d in node.decorator_list):
         return (Argument("", star="*"), *arguments)
@@ -270,7 +272,7 @@ def _fields_as_arguments(fields: Sequence[Entry], node: ast.ClassDef) -> tuple[A
 
 
 def _members(node: ast.stmt, place: Place, bases: Sequence[str]) -> Iterator[Entry]:
-    """What a statement in a class adds to it, for others to use."""
+    """Public members that a statement in a class adds to it."""
     if isinstance(node, ast.FunctionDef):
         special = node.name.startswith("__") and node.name != "__init__"
         if ast.get_docstring(node) and (special or not node.name.startswith("_")):
@@ -288,7 +290,7 @@ def _members(node: ast.stmt, place: Place, bases: Sequence[str]) -> Iterator[Ent
 
 
 def _is_derived(value: ast.expr | None) -> bool:
-    """Whether a record sets the field itself: it is none of its arguments."""
+    """Return True if a record sets the field itself: it is not one of its arguments."""
     return value is not None and "init=False" in ast.unparse(value)
 
 

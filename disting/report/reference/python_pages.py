@@ -112,7 +112,7 @@ class PageEntry:
 
     @property
     def gist(self) -> str:
-        """What the docstring says first, as plain text."""
+        """First sentence of the docstring, as plain text."""
         return self.entry.text.split("\n\n")[0].replace("`", "")
 
 
@@ -149,7 +149,9 @@ def _page(name: str, the_entries: list[Entry], addresses: Mapping[Place, str]) -
 
 
 def _sections(item: PageEntry, level: int = 2) -> Iterator[Section]:
-    """What the search finds: an entry and its members, by what their docstrings say first."""
+    """Sections for the search: an entry and its members, by the first sentences of their
+    docstrings.
+    """
     text = item.entry.text.split("\n\n")[0]
     yield Section(item.anchor, item.anchor, level, text)
     for member in item.members:
