@@ -86,7 +86,7 @@ def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
 
 def of_two_sensors(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     """Not asked of two sensor quantities."""
-    if left.chain.sensor is right.chain.sensor:
+    if left.chain.quantity is right.chain.quantity:
         return None
     return InclusionFinding(Inclusion.UNKNOWN, reason=ONE_SENSOR)
 
@@ -126,7 +126,7 @@ def of_limits(
     left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
     """What is no limit has no equivalent; limits of two sensor quantities are not asked for."""
-    two_sensors = left.chain.sensor is not right.chain.sensor
+    two_sensors = left.chain.quantity is not right.chain.quantity
     return closure if closure.inclusion is Inclusion.NEITHER or two_sensors else None
 
 

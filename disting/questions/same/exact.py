@@ -87,7 +87,7 @@ def exact_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
 
 def are_alike(a: Chain, b: Chain, settings: Settings) -> bool:
     """Return True for chains of one size and sensor quantity."""
-    return (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
+    return (a.n_masses, a.quantity) == (b.n_masses, b.quantity)
 
 
 def recheck_labels(

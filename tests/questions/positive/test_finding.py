@@ -9,7 +9,7 @@ from itertools import combinations, pairwise, permutations
 import numpy as np
 import pytest
 
-from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
+from disting import Certainty, Chain, Family, InputError, Quantity, Relation, View, catalog
 from disting.evidence.decision import Exclusion, Theorem
 from disting.evidence.positive import (
     Empirical,
@@ -301,7 +301,7 @@ def test_bad_input():
     for other in (
         Chain(4, damped=False),
         Chain(3, damped=True),
-        Chain(3, sensor=Sensor.POSITION, damped=False),
+        Chain(3, quantity=Quantity.POSITION, damped=False),
         Chain(3, dead_time=True, damped=False),
     ):
         with pytest.raises(InputError):
