@@ -37,7 +37,7 @@ One model, and what has the same response:
 Models and networks:
 
     Chain, Family, Symmetry  masses in a row; all of one size; symmetries of a chain
-    Sensor                   sensor quantity: position, velocity or acceleration
+    Quantity                 what a sensor shows: position, velocity or acceleration
     Network, Element, Port   machines that branch, circuits, compartments
     network_of, values_in    a network, and its values, from a text such as "R0-p(R1,C1)"
     Model, MatrixModel       state spaces and transfer functions with parameters
@@ -124,7 +124,7 @@ if TYPE_CHECKING:
     from disting.model.symmetry import Symmetry as Symmetry
     from disting.network.network import Element as Element, Network as Network, Port as Port
     from disting.network.notation import network_of as network_of, values_in as values_in
-    from disting.quantities import Sensor as Sensor
+    from disting.quantities import Quantity as Quantity
     from disting.store import CacheWarning as CacheWarning, Store as Store
     from disting.verdict.comparison import (
         compare as compare,

@@ -81,7 +81,7 @@ def short(value: object) -> str:
         return _cut(repr(value[:LONGEST_ECHO]), len(value) > LONGEST_ECHO)
     if isinstance(value, int) and value.bit_length() > 200:
         return f"a number of {value.bit_length()} bits"
-    return _cut(printable(repr(value)), False)
+    return _cut(printable(" ".join(repr(value).split())), False)  # of a matrix on one line
 
 
 def of_type(value: T, kind: type | UnionType | tuple[type, ...], wanted: str) -> T:

@@ -121,13 +121,13 @@ def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateS
     c = np.concatenate([sign * shown, np.zeros(n)])[None, :]
     d = np.zeros((1, 1))
     # differentiation: c (A x + B u), with D = 0 until the acceleration
-    for _ in range(chain.sensor.order):
+    for _ in range(chain.quantity.order):
         c, d = c @ a, c @ b
     if chain.lag:
         a, b, c, d = _lagged(a, b, c, d, values["T1"])
     units = {f"x{i}": "m" for i in range(1, n + 1)} | {f"v{i}": "m/s" for i in range(1, n + 1)}
     units |= {"F": "N"} if chain.lag else {}
-    ports = {"u": "N", "y": chain.sensor.unit}
+    ports = {"u": "N", "y": chain.quantity.unit}
     return StateSpace(a, b, c, d, values.get("Td", 0.0), tuple(units), units | ports)
 
 
@@ -196,7 +196,7 @@ def zero_pole(chain: Chain, values: dict[str, float], sign: int = 1) -> ZeroPole
     at = 2.0 * np.abs(bottom).max() + 1.0  # a real point away from all of them
     ratio = np.prod(at - bottom) / np.prod(at - top)
     gain = sign * _real_response(chain, values, at) * float(np.real(ratio))
-    top = np.append(top, np.zeros(chain.sensor.order))
+    top = np.append(top, np.zeros(chain.quantity.order))
     if chain.lag:
         bottom, gain = np.append(bottom, -1 / values["T1"]), gain / values["T1"]
     return ZeroPole(top, bottom, gain)

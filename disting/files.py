@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from disting.errors import CatalogError, InputError, of_type, printable, short
-from disting.quantities import Sensor
+from disting.quantities import Quantity
 
 PROVENANCE = "provenance.json"
 STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process, not a place
@@ -292,7 +292,7 @@ def schema(of: Format) -> dict[str, Any]:
     ('disting next 1', ['certainty', 'next'])
     """
     own, definitions = _read_schema(of.short), _read_schema("definitions")
-    definitions |= {"quantity": {"enum": [sensor.value for sensor in Sensor]}}
+    definitions |= {"quantity": {"enum": [sensor.value for sensor in Quantity]}}
     needed: dict[str, Any] = {}
     new = _definitions(own)
     while new:

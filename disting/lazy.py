@@ -18,6 +18,9 @@ else:
     ModuleType = type(sys)
 
 
+OLD_NAMES = {"disting.Sensor": "Quantity"}  # of public names
+
+
 def offer(package: str) -> ModuleType:
     """Make the names public that a package lists below `if TYPE_CHECKING`, as `X as X`; return the
     package. Called at the end of its `__init__`.
@@ -53,6 +56,8 @@ class _Room(ModuleType):
         from importlib import import_module
         from importlib.util import find_spec
 
+        if (new := OLD_NAMES.get(f"{self.__name__}.{name}")) is not None:
+            return _under_new_name(self, name, new)
         module = _homes(self).get(name, self.__name__)
         if module != self.__name__:
             value: object = getattr(import_module(module), name)
@@ -86,6 +91,17 @@ class _Room(ModuleType):
             if frame and frame.f_globals.get("__name__") == "pydoc":
                 raise AttributeError("__all__")
         return [name for name in _names(self) if not name.startswith("_")]
+
+
+def _under_new_name(package: ModuleType, old: str, new: str) -> object:
+    """Return what a package calls `new`, with a DeprecationWarning."""
+    import warnings
+
+    here = package.__name__
+    text = f"{here}.{old} is now {here}.{new}; the old name works in this version only"
+    warnings.warn(text, DeprecationWarning, stacklevel=3)
+    value: object = getattr(package, new)
+    return value
 
 
 def _names(package: ModuleType) -> list[str]:

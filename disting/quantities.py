@@ -16,14 +16,14 @@ DRIVE = re.compile(
 )
 
 
-class Sensor(StrEnum):
+class Quantity(StrEnum):
     """Measured quantity; its transfer function is s**order times the receptance.
 
     A row has the word, the unit of a translation, and other words that are understood.
 
-    >>> Sensor.VELOCITY.order, Sensor.VELOCITY.unit, Sensor.VELOCITY.is_proper
+    >>> Quantity.VELOCITY.order, Quantity.VELOCITY.unit, Quantity.VELOCITY.is_proper
     (1, 'm/s', True)
-    >>> [Sensor(word).value for word in ("speed", "Angle", "accel")]
+    >>> [Quantity(word).value for word in ("speed", "Angle", "accel")]
     ['velocity', 'position', 'acceleration']
     """
 
@@ -50,9 +50,14 @@ class Sensor(StrEnum):
         return made
 
     @property
+    def written_text(self) -> str:
+        """Its text in keys and seeds, with the first name of this class: results stay the same."""
+        return f"<Sensor.{self.name}: {self.value!r}>"
+
+    @property
     def order(self) -> int:
         """Number of differentiations of the position: 0, 1 or 2."""
-        return list(Sensor).index(self)
+        return list(Quantity).index(self)
 
     @property
     def is_proper(self) -> bool:
@@ -62,46 +67,46 @@ class Sensor(StrEnum):
         return self.order <= PROPER
 
     @classmethod
-    def _missing_(cls, value: object) -> "Sensor | None":
+    def _missing_(cls, value: object) -> "Quantity | None":
         """The quantity of another word; None for a word that is none."""
         word = value.strip().lower() if isinstance(value, str) else ""
         return next((own for own in cls if word in (own.value, *own.other_words)), None)
 
 
-MODELLED = tuple(s for s in Sensor if s.is_proper)  # what sensors of models can show
+MODELLED = tuple(s for s in Quantity if s.is_proper)  # what sensors of models can show
 
 
-def as_sensor(value: Sensor | str) -> Sensor:
-    """The sensor quantity of that name; raises InputError for another word."""
+def as_quantity(value: Quantity | str) -> Quantity:
+    """The quantity of that name; raises InputError for another word."""
     try:
-        return Sensor(value)
+        return Quantity(value)
     except ValueError:
         if isinstance(value, str) and DRIVE.match(value.strip()):
             raise InputError(
                 f"{short(value)} drives the machine; the quantity is what the sensor shows:"
-                f" {in_words(Sensor)}"
+                f" {in_words(Quantity)}"
             ) from None
-        raise InputError(f"sensor is {in_words(Sensor)}, not {short(value)}") from None
+        raise InputError(f"quantity is {in_words(Quantity)}, not {short(value)}") from None
 
 
-def sensor_of_model(value: Sensor | str) -> Sensor:
-    """The same for the sensor of a model; raises InputError for one that no model can have."""
-    sensor = as_sensor(value)
-    refuse_improper(sensor.order)
-    return sensor
+def quantity_of_model(value: Quantity | str) -> Quantity:
+    """The same for a model; raises InputError for one that no model can have."""
+    quantity = as_quantity(value)
+    refuse_improper(quantity.order)
+    return quantity
 
 
 def refuse_improper(order: int) -> None:
     """Raise InputError for a derivative of the position that no sensor of a model can show."""
     if not 0 <= order <= PROPER:
-        quantity = list(Sensor)[order] if 0 <= order < len(Sensor) else f"derivative {order}"
+        quantity = list(Quantity)[order] if 0 <= order < len(Quantity) else f"derivative {order}"
         raise InputError(
             f"a sensor of a machine shows {in_words(MODELLED)}, not {quantity}: beyond the"
             f" {MODELLED[-1]} the transfer function of a mass is not proper"
         )
 
 
-def in_words(quantities: Iterable[Sensor]) -> str:
+def in_words(quantities: Iterable[Quantity]) -> str:
     """Quantities as alternatives.
 
     >>> in_words(MODELLED)
@@ -111,10 +116,10 @@ def in_words(quantities: Iterable[Sensor]) -> str:
     return f"{', '.join(others)} or {last}"
 
 
-def other_options(taken: Sensor) -> str:
+def other_options(taken: Quantity) -> str:
     """The options that name another quantity.
 
-    >>> other_options(Sensor.ACCELERATION)
+    >>> other_options(Quantity.ACCELERATION)
     '--quantity position or --quantity velocity'
     """
-    return " or ".join(f"--quantity {other}" for other in Sensor if other is not taken)
+    return " or ".join(f"--quantity {other}" for other in Quantity if other is not taken)

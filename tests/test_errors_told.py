@@ -107,6 +107,7 @@ CALLS: tuple[Call, ...] = (
     (".Catalog.verdict", lambda: catalog(2).verdict(1, 99), InputError),
     (".Chain", lambda: Chain(0), InputError),
     (".Chain.frequency_response", lambda: DRIVE.frequency_response({"m1": 1.0}, OMEGA), InputError),
+    (".Chain.from_written_fields", lambda: Chain.from_written_fields({"no": 1}), TypeError),
     (".Element", lambda: Element("x1", "x", (1, 2)), InputError),
     (
         ".Engine.measured_subject",
@@ -187,7 +188,7 @@ CALLS: tuple[Call, ...] = (
     ("fit.Setup", lambda: fit.Setup(sign=3), InputError),
     ("fit.Setup.added", lambda: fit.Setup(inertias=(("9", 0.5),)).added(2), InputError),
     ("fit.Setup.experiment", lambda: fit.Setup(locked=("9",)).experiment(2), InputError),
-    ("fit.Setup.seen", lambda: fit.Setup(sensor="9").seen(STRUCTURE, disting.Sensor.POSITION), InputError),
+    ("fit.Setup.seen", lambda: fit.Setup(sensor="9").seen(STRUCTURE, disting.Quantity.POSITION), InputError),
     ("fit.Setup.still", lambda: fit.Setup(locked=("9",)).still(2), InputError),
     ("equivalence.assignments", lambda: equivalence.assignments(["m1"]), InputError),
     ("equivalence.chains_of", lambda: equivalence.chains_of("nonsense", DRIVE), InputError),

@@ -20,8 +20,8 @@ from disting import (
     MatrixModel,
     Model,
     ModelList,
+    Quantity,
     Query,
-    Sensor,
     Settings,
     Store,
     View,
@@ -148,14 +148,14 @@ def test_lines_say_what_is_there(shown):
 CHAINS = st.builds(
     lambda chain, masses, sensor, flags: replace(
         chain,
-        sensor=sensor,
+        quantity=sensor,
         ground_dampers=tuple(m for m in masses if m <= chain.n_masses),
         lag=flags[0],
         dead_time=flags[1],
     ),
     st.sampled_from([c for n in range(1, 5) for d in (False, True) for c in Family(n, damped=d)]),
     st.sets(st.integers(1, 4)),
-    st.sampled_from(Sensor),
+    st.sampled_from(Quantity),
     st.tuples(st.booleans(), st.booleans()),
 )
 SIZES = st.dictionaries(st.integers(1, 9), st.fractions(min_value="1/9"), max_size=2)
@@ -163,7 +163,7 @@ EXPERIMENTS = st.builds(
     Experiment,
     force=st.none() | st.integers(1, 9),
     sensor=st.none() | st.tuples(st.integers(2, 9), st.integers(0, 1)),
-    quantity=st.none() | st.sampled_from(Sensor),
+    quantity=st.none() | st.sampled_from(Quantity),
     locked=st.sets(st.integers(1, 9), max_size=3),
     inertias=SIZES,
     springs=SIZES,
@@ -180,7 +180,7 @@ def test_what_is_printed_can_be_typed_in(one):
 def test_a_chain_prints_its_name_and_its_drawing(chain):
     line = repr(chain)
     name = line.removeprefix("<Chain: ").split(" ")[0]
-    assert read_together([name], damped=chain.damped, sensor=chain.sensor) == [chain]
+    assert read_together([name], damped=chain.damped, quantity=chain.quantity) == [chain]
     assert f" {text_drawing(chain)}, {chain.premise}>" in line
 
 
@@ -188,7 +188,7 @@ def test_a_chain_prints_its_name_and_its_drawing(chain):
     "one",
     [
         Family(3, damped=False),
-        Family(2, damped=True, sensor=Sensor.POSITION),
+        Family(2, damped=True, quantity=Quantity.POSITION),
         Query(),
         Query(View.TF, conditions=("1", "4"), markov=5, inclusion=False),
         Settings(points=4),

@@ -35,7 +35,7 @@ PLAIN = {int, str, bool, float, complex, type(None)}  # whose `repr` tells all
 def full_text(value: Any) -> str:
     """A value with all fields of all dataclasses in it, but for those that say `repr=False`; what
     is no dataclass, tuple, list or mapping, by its `repr`. A dataclass whose text must not change
-    with its layout says its fields in `written_fields`.
+    with its layout says its fields in `written_fields`, a word its text in `written_text`.
 
     Raises ValueError for a whole number of more digits than Python writes in decimal.
 
@@ -44,8 +44,10 @@ def full_text(value: Any) -> str:
     ('(Chain(n_masses=1, gap=0, act_minus=0, act', '(<Chain: 1:1 [1FS]')
     """
     kind = type(value)
-    if kind in PLAIN or isinstance(value, str):
+    if kind in PLAIN:
         return repr(value)
+    if isinstance(value, str):
+        return getattr(value, "written_text", None) or repr(value)
     if isinstance(value, tuple) and PLAIN.issuperset(map(type, value)):
         return repr(value)  # a named tuple says its name
     if kind is tuple:

@@ -38,7 +38,7 @@ from flint import fmpz_mpoly
 
 from disting.algebra.determinants import Ring, Tridiagonal, rank
 from disting.algebra.symbols import Expr, coefficients, quotient, rename_symbols, symbol, symbols
-from disting.model.chain import Chain, Element, Ports, Sensor, Structure, power
+from disting.model.chain import Chain, Element, Ports, Quantity, Structure, power
 from disting.model.names import read_together
 from disting.renamed import renamed
 
@@ -273,7 +273,7 @@ def numerator_and_denominator(structure: Structure) -> tuple[fmpz_mpoly, fmpz_mp
 
 @renamed(sensor="quantity")
 def transfer_function(
-    chain: Chain | str, *, damped: bool | None = None, quantity: Sensor | str | None = None
+    chain: Chain | str, *, damped: bool | None = None, quantity: Quantity | str | None = None
 ) -> Expr:
     """G(s) from force to sensor as a SymPy expression in s and positive symbols named as the
     parameters.
@@ -287,7 +287,7 @@ def transfer_function(
     """
     from sympy import exp
 
-    (chain,) = read_together([chain], damped=damped, sensor=quantity)
+    (chain,) = read_together([chain], damped=damped, quantity=quantity)
     num, den = expand(chain.structure)
     rational = quotient(coefficients(num, "s"), coefficients(den, "s"))
     return rational * exp(-symbol("s") * symbol("Td")) if chain.dead_time else rational

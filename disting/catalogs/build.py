@@ -75,7 +75,7 @@ def build(
         "catalog": name_of(n_masses, damped),
         "n_masses": n_masses,
         "damped": damped,
-        "sensor": family.sensor.value,
+        "sensor": family.quantity.value,
         "models": len(family),
         "markov": 4 * n_masses,
         "conditions": "1-9",

@@ -21,7 +21,7 @@ from disting.catalogs.files import Record, lines, shipped_folder, write_provenan
 from disting.conditions.rule import RULES
 from disting.errors import CatalogError, InputError
 from disting.files import intact_text, write_whole
-from disting.model.chain import Chain, Indices, Sensor
+from disting.model.chain import Chain, Indices, Quantity
 from disting.model.names import name_of
 from disting.model.presentation import plural, summary
 from disting.verdict.engine import Engine, Progress, silent
@@ -101,7 +101,7 @@ class Matrix:
     def _sign(self, column: str, left: Chain, right: Chain) -> str:
         own_place, other_place = (self._places.get(self._plain(c), -1) for c in (left, right))
         low, high = sorted((own_place, other_place))
-        if low < 0 or low == high or left.sensor is not right.sensor:
+        if low < 0 or low == high or left.quantity is not right.quantity:
             raise InputError(
                 f"the matrix holds pairs of two of its models with one sensor, not {left} and"
                 f" {right}"
@@ -117,7 +117,7 @@ class Matrix:
         return {chain: i for i, chain in enumerate(self.chains)}
 
     def _plain(self, chain: Chain) -> Chain:
-        return replace(chain, sensor=Sensor(self.records[0]["sensor"]))
+        return replace(chain, quantity=Quantity(self.records[0]["sensor"]))
 
 
 def matrix(
@@ -131,7 +131,7 @@ def matrix(
     """The verdicts on all pairs of chains of one sensor quantity, of any sizes; inclusions are
     not asked for.
     """
-    if len({c.sensor for c in chains}) != 1:
+    if len({c.quantity for c in chains}) != 1:
         raise InputError("a matrix of verdicts holds models of one sensor quantity")
     engine = engine or Engine()
     subjects = [engine.subject(name_of(c), c) for c in chains]
@@ -144,7 +144,7 @@ def matrix(
         "schema": SCHEMA,
         "catalog": name,
         "models": len(chains),
-        "sensor": chains[0].sensor.value,
+        "sensor": chains[0].quantity.value,
     }
     header |= {"command": COMMAND, "settings": engine.settings.to_dict(), "safety": safety}
     return Matrix((header, *models, *rows))
@@ -197,7 +197,7 @@ def _model(number: int, chain: Chain, rank: int) -> Record:
 
 
 def _chain(r: Record, header: Record) -> Chain:
-    plain = Chain(*Indices(*r["indices"]), sensor=Sensor(header["sensor"]), damped=r["damped"])
+    plain = Chain(*Indices(*r["indices"]), quantity=Quantity(header["sensor"]), damped=r["damped"])
     return replace(
         plain, ground_dampers=tuple(r["ground_dampers"]), lag=r["lag"], dead_time=r["dead_time"]
     )

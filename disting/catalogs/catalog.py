@@ -269,7 +269,7 @@ class Catalog(NotebookTable):
     @cached_property
     def premise(self) -> Premise:
         """Damping and sensor quantity of all models."""
-        return Premise(self.damped, self.family.sensor)
+        return Premise(self.damped, self.family.quantity)
 
     @cached_property
     def family(self) -> Family:

@@ -42,7 +42,7 @@ from disting.decide.same.real_and_positive import POSITIVELY
 from disting.errors import CatalogError, InputError
 from disting.evidence.positive import PositiveFinding
 from disting.files import intact_text, write_whole
-from disting.model.chain import Chain, Premise, Sensor
+from disting.model.chain import Chain, Premise, Quantity
 from disting.model.family import Family
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Models, Question
@@ -53,7 +53,7 @@ from disting.verdict.result import Query, Relation, Verdict, View
 
 
 def combined_family(
-    sizes: Sequence[int], *, damped: bool = True, sensor: Sensor = Sensor.ACCELERATION
+    sizes: Sequence[int], *, damped: bool = True, quantity: Quantity = Quantity.ACCELERATION
 ) -> tuple[tuple[str, Chain], ...]:
     """All models of several sizes with their names, in the order of sizes and numbers; raises
     InputError for none.
@@ -63,7 +63,7 @@ def combined_family(
     """
     if not sizes:
         raise InputError("a combined family needs at least one size")
-    families = (Family(n, damped, sensor) for n in sorted(set(sizes)))
+    families = (Family(n, damped, quantity) for n in sorted(set(sizes)))
     return tuple(
         (f"{f.n_masses}:{number}", chain) for f in families for number, chain in enumerate(f, 1)
     )
@@ -73,7 +73,7 @@ def combine(
     sizes: Sequence[int],
     *,
     damped: bool = True,
-    sensor: Sensor = Sensor.ACCELERATION,
+    quantity: Quantity = Quantity.ACCELERATION,
     query: Query | None = None,
     engine: Engine | None = None,
     executor: Executor | None = None,
@@ -91,7 +91,7 @@ def combine(
     """
     engine = engine or Engine()
     subjects = [
-        engine.subject(*named) for named in combined_family(sizes, damped=damped, sensor=sensor)
+        engine.subject(*named) for named in combined_family(sizes, damped=damped, quantity=quantity)
     ]
     return engine.decisions(subjects, query or Query(), executor=executor, progress=progress)
 

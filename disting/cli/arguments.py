@@ -17,7 +17,7 @@ from disting.model.names import DAMPED
 from disting.model.question import Domain
 from disting.network.notation import NOTATIONS, notations_of
 from disting.network.notation.member import FAMILY
-from disting.quantities import MODELLED, Sensor, as_sensor
+from disting.quantities import MODELLED, Quantity, as_quantity
 
 MODEL = (
     "a model: masses:number, as 'disting models' lists it; +b2: with a damper from mass 2 to the"
@@ -181,12 +181,14 @@ def is_damped(options: argparse.Namespace) -> bool:
 def quantity_word(text: str) -> str:
     """The name of a sensor quantity, of its usual words; raises ArgumentTypeError."""
     try:
-        return as_sensor(text).value
+        return as_quantity(text).value
     except InputError as reason:
         raise argparse.ArgumentTypeError(str(reason)) from None
 
 
-def add_quantity(parser: argparse.ArgumentParser, default: Sensor = Sensor.ACCELERATION) -> None:
+def add_quantity(
+    parser: argparse.ArgumentParser, default: Quantity = Quantity.ACCELERATION
+) -> None:
     """--quantity: what the sensor shows; --sensor is everywhere the mass at which it sits."""
     parser.add_argument(
         "--quantity",

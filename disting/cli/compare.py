@@ -26,7 +26,7 @@ from disting.cli.arguments import (
 from disting.cli.relations import in_colour, query
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.positive import PositiveFinding
-from disting.model.chain import Chain, Sensor, text_drawing
+from disting.model.chain import Chain, Quantity, text_drawing
 from disting.model.names import NAME, name_of, names_of, read, read_together
 from disting.model.question import Domain
 from disting.verdict.meaning import RESPONSE, meaning_sentence, undetermined_sentence
@@ -134,7 +134,7 @@ def look_up(chains: Sequence[Chain], asked: Query) -> Verdict | None:
     stored = (
         a.n_masses == b.n_masses in SHIPPED_SIZES
         and a.damped == b.damped
-        and a.sensor is b.sensor is Sensor.ACCELERATION
+        and a.quantity is b.quantity is Quantity.ACCELERATION
         and left.is_plain
         and right.is_plain
         and left != right
@@ -167,7 +167,7 @@ def shipped_ranks(chains: Sequence[Chain]) -> tuple[Known, ...] | None:
 def _is_shipped(chain: Chain) -> bool:
     """Return True if a catalogue contains the chain."""
     plain = replace(chain, ground_dampers=(), lag=False, dead_time=False) == chain
-    acceleration = chain.sensor is Sensor.ACCELERATION
+    acceleration = chain.quantity is Quantity.ACCELERATION
     return plain and acceleration and chain.n_masses in SHIPPED_SIZES
 
 
@@ -192,7 +192,7 @@ def run(options: argparse.Namespace) -> int:
     texts = (options.left, options.right)
     more = options.json or options.bound or options.also or options.prove
     if not more and all(map(NAME.fullmatch, texts)):
-        chains = read_together(texts, damped=options.damped, sensor=options.quantity)
+        chains = read_together(texts, damped=options.damped, quantity=options.quantity)
         verdict = look_up(chains, query(options.conditions, View.EXACT, options.domain))
         if verdict is not None:
             print("\n".join(_told(in_order(chains, verdict), verdict)))

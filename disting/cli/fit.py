@@ -174,7 +174,7 @@ def _left(options: argparse.Namespace) -> "FitRecord | None":
 
 
 def _as_measured(chain: Chain, measured: Data) -> Chain:
-    return replace(chain, sensor=measured.train.sensor)
+    return replace(chain, quantity=measured.train.quantity)
 
 
 def _again(words: Sequence[str]) -> str:
@@ -198,7 +198,7 @@ def _candidates(
     """The structures to fit, or those that an earlier fit left; raises InputError where a parameter
     named by --fix or --bound is in none of them.
     """
-    quantity = measured.train.sensor
+    quantity = measured.train.quantity
     if left:
         chains = tuple(_as_measured(chain, measured) for chain in left)
     elif options.family:

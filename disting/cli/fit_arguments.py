@@ -22,7 +22,7 @@ from disting.cli.fit_values import (
     unit_of,
 )
 from disting.cli.output import written_folder
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 WEIGHTS = ("auto", "none", "std", "coherence")
 RULES = ("not-excluded", "paper")
@@ -169,7 +169,7 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
         " position)"
     )
     group.add_argument(
-        "--quantity", type=quantity_word, choices=[s.value for s in Sensor], help=text
+        "--quantity", type=quantity_word, choices=[s.value for s in Quantity], help=text
     )
     text = (
         "unit of frequency, phase, magnitude, input or output, such as frequency=rad/s,"

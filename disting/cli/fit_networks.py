@@ -21,7 +21,7 @@ from disting.fit.search.machines import as_machine, each_once, with_ground_dampe
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
 from disting.measurement.look_text import short_lines
-from disting.model.chain import Sensor, Sort
+from disting.model.chain import Quantity, Sort
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 from disting.network.notation.member import FAMILY
@@ -136,7 +136,7 @@ def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[
         raise InputError("circuits show an impedance, machines a motion: fit them apart")
     is_circuit = circuits == {True}
     if is_circuit:
-        options.quantity = options.quantity or Sensor.POSITION.value  # an impedance has none
+        options.quantity = options.quantity or Quantity.POSITION.value  # an impedance has none
     read = data(options)
     responses = [read.train, *(further.measured for further in read.further)]
     if not is_circuit:

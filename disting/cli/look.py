@@ -24,7 +24,7 @@ from disting.files import json_text
 from disting.measurement import FrequencyResponse
 from disting.measurement.look_text import WIDTH, look_lines
 from disting.measurement.looking import Look, look, look_at, name_units
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from disting.model.presentation import plural
 
 NARROWEST, WIDEST = 60, 160  # characters of a line
@@ -67,7 +67,7 @@ def _views(options: argparse.Namespace, unread: list[str]) -> Iterator[View]:
     if options.demo:
         from disting.simulation import demo
 
-        yield View("", look_at(demo(), Sensor.ACCELERATION, list(_changes(options))))
+        yield View("", look_at(demo(), Quantity.ACCELERATION, list(_changes(options))))
         return
     places = sensors(options)
     if len(options.train) > 1 and len(places) == 1:

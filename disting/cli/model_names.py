@@ -12,7 +12,7 @@ from disting.cli.output import keep_apart
 from disting.errors import InputError
 from disting.general import AnyModel, MatrixModel, read_models
 from disting.general.any_model import as_chain, of_network
-from disting.model.chain import Chain, Sensor, Sort, text_drawing
+from disting.model.chain import Chain, Quantity, Sort, text_drawing
 from disting.model.names import NAME, damping_option, read_together
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of, values_in
@@ -41,7 +41,7 @@ def models_of(texts: Sequence[str], options: argparse.Namespace) -> list[Chain |
     networks = {text: _network(text, options) for text in texts if FILE not in text}
     named = [text for text, network in networks.items() if network is None]
     if len(set(texts)) == len(set(named)):
-        return [*read_together(texts, damped=options.damped, sensor=options.quantity)]
+        return [*read_together(texts, damped=options.damped, quantity=options.quantity)]
     if getattr(options, "bound", ()):
         raise InputError("--bound belongs to numbered chains: leave it away")
     if all(FILE in text for text in texts):
@@ -53,7 +53,7 @@ def models_of(texts: Sequence[str], options: argparse.Namespace) -> list[Chain |
     chains = dict(
         zip(
             named,
-            read_together(named, damped=options.damped, sensor=options.quantity),
+            read_together(named, damped=options.damped, quantity=options.quantity),
             strict=True,
         )
     )
@@ -69,19 +69,19 @@ def _network(text: str, options: argparse.Namespace) -> AnyModel | None:
     """The model of a network; None of the name of a chain."""
     if not is_network(text, options.notation):
         return None
-    quantity = Sensor(options.quantity)
+    quantity = Quantity(options.quantity)
     return of_network(network_of(text, options.notation, quantity=quantity))
 
 
 def structures(
-    texts: Sequence[str], options: argparse.Namespace, quantity: Sensor = Sensor.ACCELERATION
+    texts: Sequence[str], options: argparse.Namespace, quantity: Quantity = Quantity.ACCELERATION
 ) -> list[Chain | Network]:
     """Chains by their names, networks in a notation or file.json:name; raises InputError for both
     at once, and for options of chains with networks.
     """
     said = [FILE in text or is_network(text, options.notation) for text in texts]
     if not any(said):
-        return [*read_together(texts, damped=options.damped, sensor=quantity)]
+        return [*read_together(texts, damped=options.damped, quantity=quantity)]
     _refuse_damping(options)
     if not all(said):
         raise InputError(

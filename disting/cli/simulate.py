@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from disting.cli.arguments import add_damped, add_notation, add_quantity, quantity_word, refuse
 from disting.cli.output import emit, written_file
 from disting.errors import InputError, short
-from disting.model.chain import Chain, Sensor, Sort
+from disting.model.chain import Chain, Quantity, Sort
 from disting.network.network import Network
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from disting.simulation import Bench, Excitation
 
 KINDS = ("schroeder", "random-phase", "chirp")
-QUANTITIES = [s.value for s in Sensor]
+QUANTITIES = [s.value for s in Quantity]
 
 
 NUMBERS = (
@@ -68,7 +68,7 @@ def _drive(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
-    add_quantity(p, Sensor.POSITION)
+    add_quantity(p, Quantity.POSITION)
     p.set_defaults(quantity=None)
     text = "quantity of the response that is written (default: acceleration)"
     p.add_argument("--response", type=quantity_word, choices=QUANTITIES, help=text)
@@ -167,7 +167,7 @@ def _model(options: argparse.Namespace) -> tuple[Chain | Network, dict[str, floa
         if options.values or options.damped is not None or options.notation:
             raise InputError("parameters belong to a model: name it, such as 2:1")
         return DEMO_MODEL, {**DEMO_PARAMETERS}
-    (model,) = structures([options.model], options, Sensor(options.quantity or Sensor.POSITION))
+    (model,) = structures([options.model], options, Quantity(options.quantity or Quantity.POSITION))
     return model, values_of(model, options.model, options)
 
 
@@ -176,11 +176,11 @@ def _response(model: Chain | Network, options: argparse.Namespace) -> str:
     they show counts as a position.
     """
     if model.sort is Sort.MACHINE:
-        return str(options.response or Sensor.ACCELERATION)
+        return str(options.response or Quantity.ACCELERATION)
     for name in ("quantity", "response"):
         if getattr(options, name):
             raise InputError(f"--{name} belongs to machines: leave it away")
-    return str(Sensor.POSITION)
+    return str(Quantity.POSITION)
 
 
 def _friction(text: str) -> tuple[int, float]:

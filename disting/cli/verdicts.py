@@ -35,7 +35,7 @@ from disting.errors import InputError, in_row
 from disting.general.any_model import of_network
 from disting.general.model_files import ModelList, read_models
 from disting.general.naming import has_free_name
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from disting.model.names import damping_option
 from disting.model.presentation import plural
 from disting.network.denotation import FREE_NAMES
@@ -115,9 +115,9 @@ def refuse_chain_options(options: argparse.Namespace) -> None:
             f'{damping_option(options.damped)} belongs to numbered chains: write "damped": true or'
             " false at the chains of the file"
         )
-    if getattr(options, "quantity", Sensor.ACCELERATION) != Sensor.ACCELERATION:
+    if getattr(options, "quantity", Quantity.ACCELERATION) != Quantity.ACCELERATION:
         raise InputError(
-            '--quantity belongs to numbered chains: write "sensor" at the chains of the file'
+            '--quantity belongs to numbered chains: write "quantity" at the chains of the file'
         )
 
 
@@ -145,7 +145,7 @@ def list_of(source: Listed) -> ModelList:
 def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[AnySide]:
     """Numbered chains, N:I."""
     named = combined_family(
-        options.masses, damped=is_damped(options), sensor=Sensor(options.quantity)
+        options.masses, damped=is_damped(options), quantity=Quantity(options.quantity)
     )
     return [engine.subject(name, chain) for name, chain in named]
 

@@ -20,13 +20,16 @@ from disting.network.families import family_of
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of, values_in
 from disting.verdict.model_equivalents import ModelEquivalent, model_equivalents
-from disting.verdict.sides import Named
+from disting.verdict.sides import Given
 
 FAMILY = re.compile(r"[a-z]+-\d+")  # a family of networks, such as circuits-4
-Target = Named | Family | Iterable[Named]
-"""Structures to search: one, those of a family, or a list."""
-WANTED = "a model is a chain, a name such as '3:4', a Model or a Network; to may be a list of them"
-NO_ALSO = "experiments are on chains: leave also away for networks and models"
+Target = Given | Family | Iterable[Given]
+"""Structures to search: one, those of a family, or a list. A tuple is one state space."""
+WANTED = (
+    "a model is a chain, a name such as '3:4', a Model, a Network, or the matrices (A, B, C) of a"
+    " state space; to may be a list of them"
+)
+NO_ALSO = "also is for chains: it is not supported with networks and models"
 
 
 @overload
@@ -40,7 +43,7 @@ def equivalents(
 ) -> Equivalents: ...
 @overload
 def equivalents(
-    model: Network | AnyModel,
+    model: Network | AnyModel | tuple[object, ...],
     values: Mapping[str, Value],
     to: Target,
     *,
@@ -49,7 +52,7 @@ def equivalents(
 ) -> tuple[ModelEquivalent, ...]: ...
 @overload
 def equivalents(
-    model: Named,
+    model: Given,
     values: Mapping[str, Value],
     to: Target,
     *,
@@ -57,7 +60,7 @@ def equivalents(
     also: Sequence[str | Experiment] = (),
 ) -> Equivalents | tuple[ModelEquivalent, ...]: ...
 def equivalents(
-    model: Named,
+    model: Given,
     values: Mapping[str, Value],
     to: Target,
     *,
@@ -79,8 +82,9 @@ def equivalents(
     given model; of the equivalents those are listed that keep all responses. Masses of another
     structure that are not named, as in "sensor=3/2", are tried in every place, a listing for each.
 
-    Of a network or a `Model`: `to` is another one, a list of them, or the name of a family of
-    networks such as "circuits-4"; networks are also texts, in which a circuit may state its values.
+    Of a network, a `Model` or the matrices (A, B, C) of a state space: `to` is another one, a list
+    of them, or the name of a family of networks such as "circuits-4"; networks are also texts, in
+    which a circuit may state its values.
     The answer is a `ModelEquivalent` for each that is not told apart over positive values; those
     that are, and those with other numbers of inputs and outputs, are left out.
 
@@ -115,20 +119,20 @@ def _is_network(source: object) -> bool:
     return isinstance(source, str) and bool(FAMILY.fullmatch(source) or notations_of(source))
 
 
-def _structures(to: Target) -> Iterable[Named]:
+def _structures(to: Target) -> Iterable[Given]:
     """Yield the structures to search; raises InputError."""
     if isinstance(to, str) and FAMILY.fullmatch(to):
         return family_of(to).networks
-    if isinstance(to, Chain | Network | AnyModel | str):
+    if isinstance(to, Chain | Network | AnyModel | str | tuple):
         return (to,)
     return of_type(to, Iterable, WANTED)
 
 
-def _model(source: Named, damped: bool | None) -> AnyModel:
+def _model(source: Given, damped: bool | None) -> AnyModel:
     """The general model of a chain, of a network or of a text; raises InputError."""
     if isinstance(source, str):
         if notations_of(source):
             source = network_of(source)
         else:
             (source,) = read_together([source], damped=damped)
-    return as_model(of_type(source, Chain | Network | AnyModel, WANTED))
+    return as_model(of_type(source, Chain | Network | AnyModel | tuple, WANTED))

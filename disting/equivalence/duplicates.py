@@ -3,7 +3,7 @@ formulas in those of the other, which parameters no data determine, what to meas
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from disting.algebra.symbols import text
@@ -13,17 +13,15 @@ from disting.evidence.general import Explicit
 from disting.experiments.menu import Costs
 from disting.files import Format
 from disting.general import AnyModel
-from disting.general.any_model import as_chain, as_model, on_one_variable
+from disting.general.any_model import as_chain, given_model, on_one_variable
 from disting.general.closed_form import ClosedForm, confirm
 from disting.general.formulas import fit, of_way
 from disting.general.synthesis import NoFormulas
 from disting.general.values_of_parts import by_parts
 from disting.general.which_models import way
-from disting.model.chain import Chain
 from disting.model.names import read_together
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Domain
-from disting.network.network import Network
 from disting.network.notation import network_of, notations_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
@@ -31,7 +29,7 @@ from disting.verdict.identifiable import Identified, identify
 from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import AnyMenu, to_dict
 from disting.verdict.result import Query, Relation, Verdict
-from disting.verdict.sides import Named, refuse_ports
+from disting.verdict.sides import Given, refuse_ports
 
 
 class Assignment(NamedTuple):
@@ -158,7 +156,7 @@ class Gate(NotebookTable):
 
 
 def gate(
-    models: Sequence[Named],
+    models: Sequence[Given],
     *,
     query: Query | None = None,
     costs: Costs | None = None,
@@ -178,7 +176,8 @@ def gate(
     '(R0**2 + R0*R1)/R1'
     """
     engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
-    made = [model_of(m) for m in of_type(models, Iterable, "the models are a list of models")]
+    listed = of_type(models, Iterable, "the models are a list of models")
+    made = [_numbered(model_of(m), m, i) for i, m in enumerate(listed, 1)]
     again = [m.name for i, m in enumerate(made) if m.name in {x.name for x in made[:i]}]
     if again or not made:
         raise InputError(
@@ -204,14 +203,18 @@ def gate(
     )
 
 
-def model_of(model: Named) -> AnyModel:
+def _numbered(model: AnyModel, given: Given, number: int) -> AnyModel:
+    """A state space that is given as matrices with its number in the list; others as they are."""
+    return replace(model, name=f"{model.name} {number}") if isinstance(given, tuple) else model
+
+
+def model_of(model: Given) -> AnyModel:
     """The model that a chain, a network or a text for them is, or the model itself; raises
     InputError.
     """
     if isinstance(model, str):
         model = network_of(model) if notations_of(model) else read_together([model])[0]
-    wanted = "a model is a chain, a name such as '3:4', a Model or a Network"
-    return as_model(of_type(model, Chain | Network | AnyModel, wanted))
+    return given_model(model)
 
 
 def duplicate(decided: Decisions, made: Sequence[AnyModel], kept: int, other: int) -> Duplicate:

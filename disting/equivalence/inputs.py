@@ -56,7 +56,7 @@ def _named(to: Family | str, like: Chain) -> tuple[Chain, ...]:
     """The chains as their text names them."""
     if isinstance(to, Family):
         return to.models
-    family = Family(like.n_masses, like.damped, like.sensor)
+    family = Family(like.n_masses, like.damped, like.quantity)
     match = re.fullmatch(rf"(\d{{1,2}})(\+b\*)?({EXTRAS})", str(to).strip())
     if match is None:
         return (chain_of(to, family, masses=like.n_masses),)

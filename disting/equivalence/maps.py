@@ -24,12 +24,17 @@ from disting.algebra.symbols import (
 from disting.equivalence.checks import holds_at_random, is_identity, safety
 from disting.equivalence.inputs import Value, point_of
 from disting.equivalence.theorems import Image, expansions, images
-from disting.errors import ContradictionError
+from disting.errors import ContradictionError, InputError, of_type, short
 from disting.model.chain import Chain
 from disting.model.names import name_of, read_together
 from disting.model.presentation import summary
+from disting.network.notation import notations_of
 
 EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
+ONLY_CHAINS = (
+    "explicit_map takes chains, as Chain or by a name such as '3:4'; for networks and other models"
+    " use equivalents or alternatives"
+)
 CAUER_UP_TO = 4  # masses of continued fractions; up to 3 s and 8000 characters
 CAUER = "Cauer's continued fraction"
 
@@ -118,6 +123,10 @@ def explicit_map(
     k01' = k12*(m1 + m2)**2/m2**2
     d01' = d12*(m1 + m2)**2/m2**2
     """
+    for given in (chain, other):
+        of_type(given, Chain | str, ONLY_CHAINS)
+        if isinstance(given, str) and notations_of(given):
+            raise InputError(f"{ONLY_CHAINS}, not {short(given)}")
     chain, other = read_together([chain, other], damped=damped)
     image = next(_candidates(chain, other), None)
     if image is None:

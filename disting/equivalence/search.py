@@ -59,10 +59,10 @@ def chain_equivalents(
     chain = read_together([model, *beside], damped=damped)[0]
     point = point_of(chain, values)
     others = chains_of(to, chain)
-    if others[0].sensor is not chain.sensor:
+    if others[0].quantity is not chain.quantity:
         raise InputError(
-            f"the sensors differ: {chain.sensor.value} and {others[0].sensor.value}; choose one for"
-            " both"
+            f"the quantities differ: {chain.quantity.value} and {others[0].quantity.value}; choose"
+            " one for both"
         )
     listings = tuple(
         listing

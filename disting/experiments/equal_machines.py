@@ -142,7 +142,7 @@ def same_by_rows(left: MeasuredChain, right: MeasuredChain) -> bool:
 
 def _factors(chain: Chain) -> tuple[object, ...]:
     """Factors that both share apart from their rows."""
-    return chain.n_masses, chain.gap, chain.sensor, chain.lag, chain.dead_time
+    return chain.n_masses, chain.gap, chain.quantity, chain.lag, chain.dead_time
 
 
 def _done(measured: MeasuredChain) -> _Done | None:

@@ -19,7 +19,7 @@ from disting.model.chain import AS_IT_IS, Chain, Element, Known, Ports, Sort, St
 from disting.model.kinds import CHANGES, Kind
 from disting.model.presentation import summary
 from disting.network.network import Network
-from disting.quantities import Sensor, sensor_of_model
+from disting.quantities import Quantity, quantity_of_model
 
 AnyStructure = Chain | Network
 Place = tuple[int, int]
@@ -42,14 +42,14 @@ class Experiment:
 
     force: Place | None
     sensor: Place | None
-    quantity: Sensor | None
+    quantity: Quantity | None
     changes: tuple[Change[int], ...]
 
     def __init__(
         self,
         force: Place | int | None = None,
         sensor: Place | int | None = None,
-        quantity: Sensor | str | None = None,
+        quantity: Quantity | str | None = None,
         *,
         changes: Iterable[Change[int]] = (),
         **by_kind: object,
@@ -264,9 +264,9 @@ class MeasuredChain:
         entry, experiment = self.entries[at], self.experiments[at]
         if experiment.changes:
             return None
-        quantity = experiment.quantity or self.chain.sensor
+        quantity = experiment.quantity or self.chain.quantity
         try:
-            return replace(self.chain, **entry.ports._asdict(), sensor=quantity)
+            return replace(self.chain, **entry.ports._asdict(), quantity=quantity)
         except ConstraintViolation:
             return None
 
@@ -319,5 +319,5 @@ def _place(what: str, place: object) -> Place | None:
     return ends[0], ends[1]
 
 
-def _quantity(quantity: object) -> Sensor:
-    return sensor_of_model(str(quantity))
+def _quantity(quantity: object) -> Quantity:
+    return quantity_of_model(str(quantity))

@@ -151,7 +151,7 @@ def listable(machine: MeasuredChain, searched: MeasuredChain) -> Iterator[tuple[
         if (
             chain is not None
             and other_chain is not None
-            and (chain.n_masses, chain.sensor) == (other_chain.n_masses, other_chain.sensor)
+            and (chain.n_masses, chain.quantity) == (other_chain.n_masses, other_chain.quantity)
             and _is_covered(other_chain)
         ):
             yield at, chain, other_chain

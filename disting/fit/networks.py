@@ -158,7 +158,7 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
                 f"{network.name} has {outputs} x {inputs} outputs and inputs: give as many measured"
                 f" responses, not {len(data)}"
             )
-    if len({response.sensor for response in data}) > 1:
+    if len({response.quantity for response in data}) > 1:
         raise InputError("sensors of a network show one quantity: give the responses in one")
     return asked
 

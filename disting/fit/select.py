@@ -48,7 +48,7 @@ from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Real
 from disting.measurement.assumptions import as_shown
-from disting.model.chain import Chain, Sensor, as_sensor
+from disting.model.chain import Chain, Quantity, as_quantity
 from disting.model.question import Settings
 from disting.statistics.practical import Thresholds
 from disting.store import Store
@@ -64,7 +64,7 @@ def select(
     candidates: Sequence[Chain],
     *,
     test: FrequencyResponse | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     further: Sequence[FurtherResponse] = (),
     home: Chain | None = None,
     alike: bool = False,
@@ -112,9 +112,9 @@ def select(
     (`joint_verdicts.locate`).
     """
     if quantity is not None:
-        shown = as_sensor(quantity)
+        shown = as_quantity(quantity)
         train, test = as_shown(train, shown), test and as_shown(test, shown)
-        candidates = [replace(c, sensor=shown) for c in candidates]
+        candidates = [replace(c, quantity=shown) for c in candidates]
     train, test, further = check(train, test, further, candidates, most_lines)
     candidates, further, zero = informative(candidates, further, home)
     work = Work(engine or Engine(store=Store.none()), executor, progress)

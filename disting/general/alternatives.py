@@ -16,13 +16,15 @@ from disting.algebra.groebner.own_process import run_limited
 from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.conditions.rule import Outcome
 from disting.errors import InputError, of_type
-from disting.general.any_model import on_one_variable
+from disting.general.any_model import given_model, on_one_variable
 from disting.general.equivalent import Equivalent, rational
 from disting.general.fibre import Extent, Fibre, solve
-from disting.general.matrix_model import AnyModel, MatrixModel, Model
+from disting.general.matrix_model import AnyModel
 from disting.general.target import Target, joint_equations, rational_values, target
+from disting.model.chain import Chain
 from disting.model.presentation import plural, summary
 from disting.model.question import Domain
+from disting.network.network import Network
 
 SECONDS = 30.0
 OTHER_ZEROS = "not the same transfer functions of both are zero"
@@ -115,9 +117,9 @@ class Alternatives:
 
 
 def alternatives(
-    model: AnyModel,
+    model: AnyModel | Chain | Network | tuple[object, ...],
     values: Mapping[str, object],
-    other: AnyModel,
+    other: AnyModel | Chain | Network | tuple[object, ...],
     *,
     plain: Sequence[Mapping[str, object]] = (),
     seed: str = "disting",
@@ -134,8 +136,7 @@ def alternatives(
     >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
     ['a = 1/2, b = 1', 'a = 1, b = 1/2']
     """
-    for either in (model, other):
-        of_type(either, Model | MatrixModel, "alternatives are those of a Model in a Model")
+    model, other = given_model(model), given_model(other)
     of_type(values, Mapping, "values are a mapping of names to numbers")
     exact = rational_values(model, values)
     if model.shape != other.shape:

@@ -10,6 +10,7 @@ from typing import TypeVar, overload
 from disting.conditions.rule import Finding
 from disting.decide import SAME_NETWORKS, first_finding
 from disting.decide.same.exact import SAFETY, as_finding
+from disting.errors import InputError, short
 from disting.fibres.ideals import (
     CoefficientMap,
     Fraction as Ratio,
@@ -31,6 +32,9 @@ from disting.network.network import Network
 
 LIMITS = Limits(safety=SAFETY, long=True)
 M = TypeVar("M", Model, AnyModel)
+STATE_SPACE = "state space"  # the name of a model that is given as matrices
+MATRICES = (3, 4)  # of a state space, without D and with it
+GIVEN = "a model is a Model, a Chain, a Network, or the matrices (A, B, C) of a state space"
 LEFT, RIGHT = "{left}", "{right}"  # stand for the names of both while an answer is kept
 
 
@@ -80,8 +84,36 @@ def of_network(network: Network) -> AnyModel:
     return Model.from_network(network) if single else MatrixModel.from_network(network)
 
 
-def as_model(source: Chain | Network | AnyModel) -> AnyModel:
-    """The general model of a chain or of a network; a model as it is. Raises InputError."""
+def of_state_space(matrices: tuple[object, ...]) -> AnyModel:
+    """The model x' = A x + B u, y = C x + D u, entries as for `Model.from_state_space`; raises
+    InputError.
+
+    >>> of_state_space(([["-a"]], [1], ["b"])).parameters
+    ('a', 'b')
+    """
+    if len(matrices) not in MATRICES:
+        raise InputError(
+            f"a tuple is a state space, (A, B, C) or (A, B, C, D), not {len(matrices)} entries; for"
+            " a transfer function use Model.from_transfer_function(numerator, denominator)"
+        )
+    model = MatrixModel.from_state_space(*matrices, name=STATE_SPACE)
+    single = model.shape == (1, 1)
+    return Model.from_state_space(*matrices, name=STATE_SPACE) if single else model
+
+
+def given_model(source: object) -> AnyModel:
+    """The general model of what a caller gives as a model, without texts; raises InputError."""
+    if not isinstance(source, Chain | Network | Model | MatrixModel | tuple):
+        raise InputError(f"{GIVEN}, not {short(source)}")
+    return as_model(source)
+
+
+def as_model(source: Chain | Network | AnyModel | tuple[object, ...]) -> AnyModel:
+    """The general model of a chain, of a network or of a state space (A, B, C); a model as it is.
+    Raises InputError.
+    """
+    if isinstance(source, tuple):
+        return of_state_space(source)
     if isinstance(source, Chain):
         return Model.from_chain(source)
     return of_network(source) if isinstance(source, Network) else source

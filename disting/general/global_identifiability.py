@@ -21,6 +21,7 @@ from flint import nmod_mat
 
 from disting.algebra.certainty import Certainty, prime, residues
 from disting.algebra.symbols import RationalFunction
+from disting.general.any_model import given_model
 from disting.general.behaviour import evaluate
 from disting.general.cases import ORDERS
 from disting.general.expression import text_of
@@ -28,8 +29,10 @@ from disting.general.identifiability import LocalIdentifiability, local_identifi
 from disting.general.matrix_model import AnyModel
 from disting.general.orthant import Orthant
 from disting.general.vectors import count_vectors, fewest_equations, is_unique, vectors_of
+from disting.model.chain import Chain
 from disting.model.presentation import NotebookTable, summary
 from disting.model.question import Domain, Question, Settings
+from disting.network.network import Network
 
 CHEAP_UP_TO, TRIES = 8, 4  # parameters, and tries: a second or two
 SETTINGS = Settings()
@@ -80,16 +83,20 @@ class GlobalIdentifiability(NotebookTable):
 
 
 def global_identifiability(
-    model: AnyModel, settings: Settings = SETTINGS, *, tries: int = ORDERS
+    model: AnyModel | Chain | Network | tuple[object, ...],
+    settings: Settings = SETTINGS,
+    *,
+    tries: int = ORDERS,
 ) -> GlobalIdentifiability:
     """Count the parameter vectors that fit and find the determined values, from this number of
-    `tries` of orders in which unknowns are solved for. Raises InputError for what is no model.
+    `tries` of orders in which unknowns are solved for. Raises InputError for anything else.
 
     >>> from disting.general.matrix_model import Model
     >>> found = global_identifiability(Model.from_transfer_function("c", "(s + a)*(s + b)"))
     >>> found.count, found.unique, found.combinations
     (2, ('c',), ('c', 'a*b', 'a + b'))
     """
+    model = given_model(model)
     local = local_identifiability(model, settings)
     ring = Orthant(len(model.parameters), len(model.parameters), Domain.COMPLEX)
     search = fewest_equations(ring, model, tries)

@@ -19,14 +19,15 @@ from disting.decide.identifiability.levels import (
     local,
 )
 from disting.decide.identifiability.parts import Level
-from disting.errors import of_type
-from disting.general.any_model import cells_of, map_of
+from disting.general.any_model import cells_of, given_model, map_of
 from disting.general.exponents import count_determined, may_be_others
 from disting.general.matrix_model import AnyModel
 from disting.general.network_model import behaviour_of
 from disting.general.network_view import OTHER_ORDER, NetworkView, other_orders
+from disting.model.chain import Chain
 from disting.model.presentation import summary
 from disting.model.question import Question, Settings
+from disting.network.network import Network
 
 SETTINGS = Settings()
 OTHER_EXPONENTS = "other exponents may do the same"
@@ -57,16 +58,18 @@ class LocalIdentifiability:
         return tuple(name for name in self.parameters if name not in self.identifiable)
 
 
-def local_identifiability(model: AnyModel, settings: Settings = SETTINGS) -> LocalIdentifiability:
-    """Local identifiability of each parameter from the transfer functions. Raises InputError for
-    what is no model.
+def local_identifiability(
+    model: AnyModel | Chain | Network | tuple[object, ...], settings: Settings = SETTINGS
+) -> LocalIdentifiability:
+    """Local identifiability of each parameter from the transfer functions of a model, a chain, a
+    network or a state space (A, B, C). Raises InputError for anything else.
 
     >>> from disting.general.matrix_model import Model
     >>> m = Model.from_transfer_function(["k"], ["a*b", "c"])
     >>> local_identifiability(m).identifiable, local_identifiability(m).rank
     ((), 2)
     """
-    of_type(model, AnyModel, "of transfer functions it is asked of a Model or a MatrixModel")
+    model = given_model(model)
     the_local = local(behaviour_of(model), settings)
     return LocalIdentifiability(
         model.parameters,

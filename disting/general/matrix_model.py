@@ -78,6 +78,7 @@ class Model(NotebookTable):
     network: Network | None = field(default=None, init=False, compare=False)
 
     def __post_init__(self) -> None:
+        _refuse_matrices(self)
         refuse_name(self.name)
 
     def __repr__(self) -> str:
@@ -337,6 +338,7 @@ class MatrixModel(NotebookTable):
         return summary(self, f"{self.name}, {size}, {', '.join(self.parameters)}")
 
     def __post_init__(self) -> None:
+        _refuse_matrices(self)
         refuse_name(self.name)
         if not self.parameters:
             raise InputError(NO_PARAMETER)
@@ -493,3 +495,14 @@ def of_ratios(
         for row in ratios
     )
     return MatrixModel(parameters, rows, name)
+
+
+def _refuse_matrices(model: "Model | MatrixModel") -> None:
+    """Raise InputError where a caller gave matrices to the class instead of its constructors."""
+    names: object = model.parameters
+    if not isinstance(names, tuple) or not all(isinstance(name, str) for name in names):
+        kind = type(model).__name__
+        raise InputError(
+            f"parameters of a {kind} are names, not {short(names)}; matrices are given to"
+            f" {kind}.from_state_space(A, B, C)"
+        )

@@ -11,7 +11,7 @@ from disting.general.any_model import as_chain, of_network
 from disting.general.expression import polynomial_text
 from disting.general.matrix_model import AnyModel, MatrixModel, Model
 from disting.general.naming import LARGEST_CHAIN
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.family import Family
 from disting.model.names import DAMPED, chain_of, name_of
 from disting.network.notation.compartments import space_of_flows
@@ -22,7 +22,7 @@ KINDS = {
     "A": ("A", "B", "C", "D", "x0", "known"),
     "num": ("num", "den"),
     "G": ("G",),
-    "chain": ("chain", "damped", "sensor"),
+    "chain": ("chain", "damped", "quantity", "sensor"),
     **NETWORKS,
     "flows": (*NETWORKS["flows"], "x0", "known"),
 }  # by the key that a model of this kind always has: all its keys
@@ -176,9 +176,12 @@ def _of_chain(entry: Plain, name: str) -> Model:
     damped = entry.get("damped", DAMPED)
     if not isinstance(damped, bool):
         raise InputError('"damped" is true or false')
-    quantity = text_of(entry, "sensor", Sensor.ACCELERATION.value)
-    if quantity not in tuple(Sensor):
-        raise InputError(f'"sensor" is {", ".join(Sensor)}, not {short(quantity)}')
+    key = "sensor" if "sensor" in entry else "quantity"  # as files of version 0.3 call it
+    quantity = text_of(entry, key, Quantity.ACCELERATION.value)
+    if quantity not in tuple(Quantity):
+        raise InputError(f'"{key}" is {", ".join(Quantity)}, not {short(quantity)}')
+    if entry.keys() >= {"quantity", "sensor"}:
+        raise InputError('"sensor" is the old name of "quantity": remove it')
     reference = text_of(entry, "chain", "")
     masses = reference.partition(":")[0].strip()
     if masses.isdecimal() and int(masses[:9]) > LARGEST_CHAIN:
@@ -186,7 +189,7 @@ def _of_chain(entry: Plain, name: str) -> Model:
             f"a chain of more than {LARGEST_CHAIN} masses is too large for a list; compare chains"
             " with 'disting compare'"
         )
-    chain = chain_of(reference, Family(1, damped, Sensor(quantity)))
+    chain = chain_of(reference, Family(1, damped, Quantity(quantity)))
     if chain.dead_time:
         raise InputError("a dead time is no rational function of s; leave +delay away")
     return Model.from_chain(chain, name=name)
@@ -198,7 +201,7 @@ def _can_be_listed(chain: Chain) -> bool:
 
 
 def _of_listed(chain: Chain) -> dict[str, object]:
-    return {"chain": name_of(chain), "damped": chain.damped, "sensor": chain.sensor.value}
+    return {"chain": name_of(chain), "damped": chain.damped, "quantity": chain.quantity.value}
 
 
 def _ratio(sides: Mapping[str, list[str]]) -> str:

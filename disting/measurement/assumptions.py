@@ -10,9 +10,9 @@ from disting.measurement.feedback import PERIODS
 from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse
 from disting.measurement.time_series import ASSUMED_POSITION
 from disting.measurement.understanding import ReadColumn
-from disting.quantities import Sensor, other_options
+from disting.quantities import Quantity, other_options
 
-ASSUMED = {ASSUMED_ACCELERATION: Sensor.ACCELERATION, ASSUMED_POSITION: Sensor.POSITION}
+ASSUMED = {ASSUMED_ACCELERATION: Quantity.ACCELERATION, ASSUMED_POSITION: Quantity.POSITION}
 OTHER_UNITS = {"Hz": "rad/s", "rad/s": "Hz", "deg": "rad", "rad": "deg", "dB": "1", "1": "dB"}
 OHMS = ("ohm", "ohms", "ω", "v/a")  # Ω in small letters is ω
 OF_RESPONSE = (Role.REAL, Role.IMAGINARY, Role.GAIN, Role.RESPONSE)
@@ -30,20 +30,20 @@ class Assumption:
         return f"{self.what}; if not, give {self.option}"
 
 
-def assumed_quantity(measured: FrequencyResponse) -> Sensor | None:
+def assumed_quantity(measured: FrequencyResponse) -> Quantity | None:
     """The quantity that the sensor, or the recorded output, is taken to show; None where somebody
     said it.
     """
     return next((quantity for note, quantity in ASSUMED.items() if note in measured.notes), None)
 
 
-def as_shown(measured: FrequencyResponse, quantity: Sensor) -> FrequencyResponse:
+def as_shown(measured: FrequencyResponse, quantity: Quantity) -> FrequencyResponse:
     """Return the same numbers as a response of this quantity, which somebody states."""
     notes = tuple(note for note in measured.notes if note not in ASSUMED)
-    return replace(measured, sensor=quantity, notes=notes)
+    return replace(measured, quantity=quantity, notes=notes)
 
 
-def assumptions(columns: Sequence[ReadColumn], quantity: Sensor | None) -> tuple[Assumption, ...]:
+def assumptions(columns: Sequence[ReadColumn], quantity: Quantity | None) -> tuple[Assumption, ...]:
     """Return what was assumed of the columns that are used; `quantity`: the assumed one, None where
     it is stated.
     """
@@ -74,7 +74,7 @@ def shows_impedance(columns: Sequence[ReadColumn], response: FrequencyResponse |
     )
 
 
-def _of_quantity(quantity: Sensor) -> Assumption:
+def _of_quantity(quantity: Quantity) -> Assumption:
     return Assumption(f"quantity {quantity}", other_options(quantity))
 
 

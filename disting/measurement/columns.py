@@ -20,14 +20,14 @@ from disting.measurement.units import (
     motion,
     omega_per,
 )
-from disting.model.chain import Sensor, as_sensor
+from disting.model.chain import Quantity, as_quantity
 
 SENSOR_WORDS = {
-    Sensor.POSITION: re.compile(
+    Quantity.POSITION: re.compile(
         r"\b(position|displacement|receptance|compliance|weg|lage)\b|\brad/(nm|a)\b|\bm/(n|a)\b"
     ),
-    Sensor.VELOCITY: re.compile(r"\b(velocity|speed|mobility|geschwindigkeit|drehzahl)\b"),
-    Sensor.ACCELERATION: re.compile(
+    Quantity.VELOCITY: re.compile(r"\b(velocity|speed|mobility|geschwindigkeit|drehzahl)\b"),
+    Quantity.ACCELERATION: re.compile(
         r"\b(acceleration|accelerance|inertance|beschleunigung)\b|/s(\^|\*\*)?2|/s²"
     ),
 }
@@ -282,21 +282,23 @@ def _of(columns: Sequence[Column], role: Role) -> list[int]:
     return [i for i, column in enumerate(columns) if column.role is role]
 
 
-def stated_quantities(table: Table) -> list[Sensor]:
+def stated_quantities(table: Table) -> list[Quantity]:
     """The quantities of which the headers and comments of a table speak."""
     text = " ".join((*table.headers, *table.comments)).lower()
     return [sensor for sensor, words in SENSOR_WORDS.items() if words.search(text)]
 
 
-def quantity_of(table: Table, sensor: Sensor | str | None, unit: str, notes: list[str]) -> Sensor:
+def quantity_of(
+    table: Table, quantity: Quantity | str | None, unit: str, notes: list[str]
+) -> Quantity:
     """The quantity that is asked for, or that words or the unit of the output say."""
-    if sensor is not None:
-        return as_sensor(sensor)
+    if quantity is not None:
+        return as_quantity(quantity)
     sensors = stated_quantities(table)
     if len(sensors) == 1:
         return sensors[0]
     own = motion(unit)
     if not sensors and own is not None:
-        return own.sensor
+        return own.quantity
     notes.append(ASSUMED_ACCELERATION)
-    return Sensor.ACCELERATION
+    return Quantity.ACCELERATION

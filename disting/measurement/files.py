@@ -29,11 +29,11 @@ SERIES = ("input", "output", "reference", "segment", "period", "sampling_rate", 
 
 
 def csv_text(response: FrequencyResponse) -> str:
-    """Comment lines with sensor, signals and origin; a header; one line a frequency.
+    """Comment lines with quantity, signals and origin; a header; one line a frequency.
 
     >>> from disting.measurement import from_arrays
     >>> csv_text(from_arrays(range(1, 9), [1j, 2j] * 4, quantity="velocity")).splitlines()[1]
-    '# sensor: velocity'
+    '# quantity: velocity'
     """
     return "\n".join([*_head(response), *_rows(response), ""])
 
@@ -58,7 +58,7 @@ def write_csv(response: FrequencyResponse, path: str | Path) -> None:
 
 def _head(response: FrequencyResponse) -> Iterator[str]:
     yield f"# {MARK}"
-    yield f"# sensor: {response.quantity}"
+    yield f"# quantity: {response.quantity_word}"
     for role, signal in (("input", response.input), ("output", response.output)):
         yield from (
             f"# {role} {part}: {_line(text)}"

@@ -16,7 +16,7 @@ from disting.measurement.response import CURRENT, VOLTAGE, FrequencyResponse
 from disting.measurement.source import Source
 from disting.measurement.text_table import decode
 from disting.measurement.understanding import record_format
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 HEADS = (b"ZPLOT", b"EXPLAIN", b"EC-Lab ASCII")
 FREQUENCY = re.compile(r"freq", re.IGNORECASE)
@@ -52,7 +52,7 @@ def read_impedance(file: Source) -> FrequencyResponse:
     return FrequencyResponse(
         2 * np.pi * frequency,
         real + sign * 1j * imaginary,
-        sensor=Sensor.POSITION,
+        quantity=Quantity.POSITION,
         input=CURRENT,
         output=VOLTAGE,
         origin=file.name,
@@ -71,7 +71,7 @@ def as_impedance(measured: FrequencyResponse) -> FrequencyResponse:
     return replace(
         measured,
         G=measured.G.conj() if turned else measured.G,
-        sensor=Sensor.POSITION,
+        quantity=Quantity.POSITION,
         is_impedance=True,
         notes=(*notes, *([TURNED] if turned else [])),
     )

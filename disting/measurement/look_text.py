@@ -150,9 +150,9 @@ def _sensor(response: FrequencyResponse) -> str:
     unit = f" [{output} per {input}]" if output and input else ""
     taken = assumed_quantity(response)
     phrase = "" if taken is None else " (assumed)"
-    if taken is not None and taken is not response.sensor:
+    if taken is not None and taken is not response.quantity:
         phrase = f", from a {taken} (assumed)"
-    return f"{response.sensor}{unit}{phrase}"
+    return f"{response.quantity}{unit}{phrase}"
 
 
 def _lines(response: FrequencyResponse) -> str:

@@ -37,7 +37,7 @@ from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.understanding import ReadColumn, with_unit
 from disting.measurement.units import drive
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from disting.model.presentation import NotebookTable
 from disting.renamed import renamed
 
@@ -99,10 +99,10 @@ class Look(NotebookTable):
         return shows_impedance(self.columns, self.response)
 
     @property
-    def quantity(self) -> Sensor | None:
+    def quantity(self) -> Quantity | None:
         """Quantity that the response shows, None where it is an impedance or is unknown."""
         known = self.response or self.record
-        return None if known is None or self.is_impedance else known.sensor
+        return None if known is None or self.is_impedance else known.quantity
 
     @property
     def assumed(self) -> tuple[Assumption, ...]:
@@ -156,7 +156,7 @@ class Look(NotebookTable):
         if not column.is_used:
             return ""
         if column.role is Role.OUTPUT:
-            return self.record.sensor.value if self.record is not None else ""
+            return self.record.quantity.value if self.record is not None else ""
         if column.role is Role.INPUT:
             unit = drive(column.unit)
             return INPUTS.get(unit[0], "") if unit else ""
@@ -270,18 +270,18 @@ def look(
 
 
 def look_at(
-    record: TimeSeries, sensor: Sensor | None = None, changes: Sequence[Change] = ()
+    record: TimeSeries, quantity: Quantity | None = None, changes: Sequence[Change] = ()
 ) -> Look:
     """Return a record that is in no file as it is understood; `sensor`: the quantity of its
     response (default: as recorded); `changes` as of `look`.
 
     >>> from disting.simulation import demo
-    >>> look_at(demo(), Sensor.ACCELERATION).response.sensor.value
+    >>> look_at(demo(), Quantity.ACCELERATION).response.sensor.value
     'acceleration'
     """
     refusals, response = list[str](), None
     try:
-        response = _changed(record.response(sensor), changes, refusals)
+        response = _changed(record.response(quantity), changes, refusals)
     except InputError as reason:
         refusals.append(str(reason))
     file = record.origin or "record"

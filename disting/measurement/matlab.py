@@ -39,7 +39,7 @@ from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.source import Allowance, Source, Take
 from disting.measurement.understanding import record_format, with_unit
 from disting.measurement.variables import Arrays, real_part
-from disting.model.chain import Sensor, as_sensor
+from disting.model.chain import Quantity, as_quantity
 
 HOLDERS = (STRUCT, OBJECT, mat5.OPAQUE)  # classes of variables in which responses may be
 DEFAULT_UNIT = "rad/TimeUnit"  # of MATLAB, where an object names none
@@ -107,7 +107,7 @@ def from_object(
     *,
     index: int | Sequence[int] | None = None,
     frequency_unit: str | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from a stored one; options as in `variables.from_variables`."""
@@ -127,7 +127,7 @@ def from_object(
         omega,
         response,
         deviation,
-        sensor=as_sensor(quantity or Sensor.ACCELERATION),
+        quantity=as_quantity(quantity or Quantity.ACCELERATION),
         input=stored_response.inputs[input],
         output=stored_response.outputs[output],
         origin=f"{origin}, {name}",

@@ -15,7 +15,7 @@ from disting.measurement.table import Table, time_series
 from disting.measurement.tabular import frequency_response
 from disting.measurement.time_series import TimeSeries
 from disting.measurement.variables import row
-from disting.model.chain import Sensor, as_sensor
+from disting.model.chain import Quantity, as_quantity
 from disting.renamed import renamed
 
 
@@ -27,7 +27,7 @@ def from_arrays(
     frequency_unit: str = "Hz",
     deviation: Any = None,
     coherence: Any = None,
-    quantity: Sensor | str = Sensor.ACCELERATION,
+    quantity: Quantity | str = Quantity.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from arrays of shape (n_f,): `frequency` in a unit of `units.FREQUENCIES`, complex
@@ -45,7 +45,7 @@ def from_arrays(
         G=values,
         deviation=deviation,
         coherence=coherence,
-        sensor=as_sensor(quantity),
+        quantity=as_quantity(quantity),
         origin="arrays",
     )
 
@@ -86,7 +86,7 @@ def from_control(
     *,
     output: int = 0,
     input: int = 0,
-    quantity: Sensor | str = Sensor.ACCELERATION,
+    quantity: Quantity | str = Quantity.ACCELERATION,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from a python-control FRD object: channel from `input` to `output` (from 0). Raises
@@ -115,7 +115,7 @@ def from_control(
     return FrequencyResponse(
         omega,
         values * as_sign(sign),
-        sensor=as_sensor(quantity),
+        quantity=as_quantity(quantity),
         input=names[0],
         output=names[1],
         origin="python-control FRD",

@@ -5,13 +5,13 @@ refuses those that its reader does not have.
 from collections.abc import Sequence
 from typing import TypedDict
 
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 
 class _Shown(TypedDict, total=False):
     """Sensor quantity, and its sign: -1 for a reversed sensor."""
 
-    quantity: Sensor | str
+    quantity: Quantity | str
     sign: int
 
 
@@ -64,7 +64,7 @@ class LookOptions(_Shown, _Columns, _Clock, total=False):
     record: int
     input: str | int
     output: str | int
-    to: Sensor | str
+    to: Quantity | str
     period: int
     transient: int | None
     lines: Sequence[float]

@@ -193,9 +193,9 @@ def _with_distortion(
 
 
 def _check_alike(first: FrequencyResponse, other: FrequencyResponse) -> None:
-    if other.sensor is not first.sensor:
+    if other.quantity is not first.quantity:
         raise InputError(
-            f"repeats show {first.sensor.value} and {other.sensor.value}; give responses of one"
+            f"repeats show {first.quantity.value} and {other.quantity.value}; give responses of one"
             " quantity"
         )
     if len(other) != len(first) or np.any(np.abs(other.omega - first.omega) > SAME * first.omega):

@@ -29,8 +29,8 @@ from disting.measurement.observation import Hold, Window, as_period
 from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import AMPERE, VOLT, agree, unit_as
 from disting.model.presentation import NotebookTable, plural, summary
-from disting.quantities import Sensor, as_sensor, other_options
-from disting.renamed import renamed
+from disting.quantities import Quantity, as_quantity, other_options
+from disting.renamed import renamed, renamed_attributes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -61,7 +61,7 @@ class Method:
 
 
 ASSUMED_ACCELERATION = (
-    f"sensor quantity taken as acceleration; if not, give {other_options(Sensor.ACCELERATION)}"
+    f"sensor quantity taken as acceleration; if not, give {other_options(Quantity.ACCELERATION)}"
 )
 OF_IMPEDANCE = "impedance"  # in place of a sensor quantity
 NO_MOTION = (
@@ -94,22 +94,23 @@ UNNAMED = Signal()
 CURRENT, VOLTAGE = Signal("current", AMPERE), Signal("voltage", VOLT)  # of an impedance
 
 
+@renamed_attributes(sensor="quantity")
 @dataclass(frozen=True, slots=True, eq=False)
 class FrequencyResponse(NotebookTable):
-    """Measured response at n_f frequencies; immutable, equal if its numbers, sensor and signals
+    """Measured response at n_f frequencies; immutable, equal if its numbers, quantity and signals
     are equal.
 
     `omega` [rad/s], shape (n_f,), positive, all different; `G`, shape (n_f,), sensor quantity per
     input [output unit / input unit]; `deviation` = standard deviation of the complex G, sqrt(var
     Re G + var Im G), shape (n_f,), in the unit of G, or None; `coherence` = ordinary coherence
-    gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows; `origin` = file
+    gamma^2 in 0..1, shape (n_f,), or None; `quantity` = what the sensor shows; `origin` = file
     and columns; `notes` = what was assumed or changed while reading; `distortion` = what the lines
     without excitation of a periodic record show, or None; `doubts` = what looked wrong while
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
     squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
     are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
-    in any unit, shape (n_f,), or None; `is_impedance`: G is a voltage per current [ohm], of which
-    `sensor` says nothing; `hold` = how the input is held between samples, or None: the lines show G
+    in any unit, shape (n_f,), or None; `is_impedance`: G is a voltage per current [ohm], whatever
+    `quantity` is; `hold` = how the input is held between samples, or None: the lines show G
     through it then, and a fit compares models so; `columns` = those of the file as they were
     understood; `method` = how it was estimated from a record in time, or None; `loop` = the closed
     loop that the record shows, or None; `nonlinear` = the part of `deviation` that a nonlinear
@@ -127,7 +128,7 @@ class FrequencyResponse(NotebookTable):
     G: Complex
     deviation: Real | None = None
     coherence: Real | None = None
-    sensor: Sensor = Sensor.ACCELERATION
+    quantity: Quantity = Quantity.ACCELERATION
     input: Signal = UNNAMED
     output: Signal = UNNAMED
     origin: str = ""
@@ -169,7 +170,7 @@ class FrequencyResponse(NotebookTable):
         checks.deviations(self.deviation)
         checks.coherences(self.coherence)
         checks.drives(self.drive)
-        object.__setattr__(self, "sensor", as_sensor(self.sensor))
+        object.__setattr__(self, "quantity", as_quantity(self.quantity))
         object.__setattr__(self, "input", Signal(*self.input))
         object.__setattr__(self, "output", Signal(*self.output))
         object.__setattr__(self, "notes", (*self.notes, *[SORTED] * moved))
@@ -183,7 +184,7 @@ class FrequencyResponse(NotebookTable):
         )
         return summary(
             self,
-            f"{plural(len(self), 'line')}, {low:.4g} to {high:.4g} Hz, {self.quantity}{unit}",
+            f"{plural(len(self), 'line')}, {low:.4g} to {high:.4g} Hz, {self.quantity_word}{unit}",
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -197,7 +198,7 @@ class FrequencyResponse(NotebookTable):
         if not isinstance(other, FrequencyResponse):
             return NotImplemented
         words = (
-            (self.sensor, self.is_impedance) == (other.sensor, other.is_impedance)
+            (self.quantity, self.is_impedance) == (other.quantity, other.is_impedance)
             and self.input == other.input
             and self.output == other.output
         )
@@ -205,7 +206,7 @@ class FrequencyResponse(NotebookTable):
         return words and all(same(a, b) for a, b in (*pairs, (self.coherence, other.coherence)))
 
     def __hash__(self) -> int:
-        return hash((self.sensor, self.omega.tobytes(), self.G.tobytes()))
+        return hash((self.quantity, self.omega.tobytes(), self.G.tobytes()))
 
     def plot(self, ax: "Axes | Sequence[Axes] | None" = None, **style: Any) -> tuple["Axes", ...]:
         """Bode diagram with matplotlib: amplitude and phase [degree] over frequency [Hz].
@@ -222,9 +223,9 @@ class FrequencyResponse(NotebookTable):
         return np.asarray(self.omega / (2 * np.pi))
 
     @property
-    def quantity(self) -> str:
-        """The quantity that G shows, as a word."""
-        return OF_IMPEDANCE if self.is_impedance else self.sensor.value
+    def quantity_word(self) -> str:
+        """The quantity that G shows, as a word; "impedance" of one."""
+        return OF_IMPEDANCE if self.is_impedance else self.quantity.value
 
     @property
     def noise(self) -> Real | None:
@@ -244,7 +245,7 @@ class FrequencyResponse(NotebookTable):
         """
         doubts = [*self.doubts, *([self.loop_sentence] if self.is_biased_by_loop else [])]
         if not self.is_impedance:
-            doubt = checks.reversed_sensor(self.omega, self.G, 2 - self.sensor.order)
+            doubt = checks.reversed_sensor(self.omega, self.G, 2 - self.quantity.order)
             doubts += [] if doubt is None else [doubt]
         return tuple(doubts)
 
@@ -309,32 +310,32 @@ class FrequencyResponse(NotebookTable):
         return self.subset(spread(np.log(self.omega), count)).read_as(reading)
 
     @renamed(sensor="quantity")
-    def to_quantity(self, quantity: Sensor | str) -> "FrequencyResponse":
+    def to_quantity(self, quantity: Quantity | str) -> "FrequencyResponse":
         """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =
         difference of the orders.
 
         Raises InputError where the unit of the output is that of another quantity than it was read
         as, and for an impedance.
         """
-        wanted = as_sensor(quantity)
+        wanted = as_quantity(quantity)
         if self.is_impedance:
             raise InputError(f"{self.origin or 'data'}: {NO_MOTION}")
-        steps = wanted.order - self.sensor.order
+        steps = wanted.order - self.quantity.order
         if not steps:
             return self
-        agree(self.output.unit, self.sensor)
+        agree(self.output.unit, self.quantity)
         return replace(
             self,
             G=self.G * (1j * self.omega) ** steps,
             deviation=apply(lambda d: d * self.omega**steps, self.deviation),
             nonlinear=apply(lambda d: d * self.omega**steps, self.nonlinear),
-            sensor=wanted,
+            quantity=wanted,
             distortion=(
                 None
                 if self.distortion is None
                 else self.distortion.times(self.distortion.omega**steps)
             ),
-            output=self.output._replace(unit=unit_as(self.output.unit, self.sensor, wanted)),
+            output=self.output._replace(unit=unit_as(self.output.unit, self.quantity, wanted)),
         )
 
     def windowed(self) -> "FrequencyResponse":

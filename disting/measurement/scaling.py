@@ -155,7 +155,7 @@ def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResp
     )
     base = unit.base if unit else "rad"
     units = (
-        response.output._replace(unit=base + SUFFIX[response.sensor.order]),
+        response.output._replace(unit=base + SUFFIX[response.quantity.order]),
         response.input._replace(unit="N" if base == "m" else "Nm"),
     )
     return _scaled(replace(response, output=units[0], input=units[1]), 1 / constant).noted(note)
@@ -175,15 +175,15 @@ def _moved(response: FrequencyResponse, unit: Motion, said: str, asked: bool) ->
     if assumed:
         response = replace(
             response,
-            sensor=unit.sensor,
+            quantity=unit.quantity,
             notes=tuple(n for n in response.notes if n != ASSUMED_ACCELERATION),
         )
     elif not (asked and unit.order == 0):
-        agree(said, response.sensor)
+        agree(said, response.quantity)
     note = (
         f"output taken from {said} to {unit.base}{SUFFIX[unit.order]}" if unit.factor != 1 else None
     )
-    signal = response.output._replace(unit=unit.base + SUFFIX[response.sensor.order])
+    signal = response.output._replace(unit=unit.base + SUFFIX[response.quantity.order])
     return _scaled(replace(response, output=signal), unit.factor).noted(note)
 
 

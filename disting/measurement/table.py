@@ -16,7 +16,7 @@ from disting.measurement.response import Signal, as_sign
 from disting.measurement.time_series import TimeSeries, said
 from disting.measurement.understanding import ReadColumn, Use, record_columns
 from disting.measurement.units import TIMES, drive, known_unit, motion
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -88,7 +88,7 @@ def time_series(
     reference: str | int | None = None,
     sampling_rate: float | None = None,
     time: str | int | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
     """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate`

@@ -53,7 +53,7 @@ from disting.measurement.units import (
     motion,
     ratio,
 )
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 ESCAPED = re.compile(r"\\u(003d|002b|0040|002d|005c)")  # = + @ - and the backslash itself
 # words for what is never negative; a magnitude or gain may well be in dB
@@ -74,7 +74,7 @@ def frequency_response(
     *,
     column: str | int | None = None,
     columns: Sequence[str] | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     sign: int = 1,
     phase_unit: str | None = None,
     frequency_unit: str | None = None,
@@ -101,7 +101,7 @@ def frequency_response(
     used = the_groups if whole else [choose(table, roles, the_groups, column)]
     said = _units(table, roles, used[0], ours)
     impedance = _is_impedance(table, used[0], quantity, magnitude_unit, ours, notes)
-    own = Sensor.POSITION if impedance else ours.get("sensor")
+    own = Quantity.POSITION if impedance else ours.get("quantity")
     shown = quantity_of(table, own if impedance else quantity or own, said[0], notes)
     said = (VOLT, AMPERE) if impedance and not ours else said
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
@@ -111,7 +111,7 @@ def frequency_response(
             reading.numbers(group) * as_sign(sign),
             reading.beside(group, Role.DEVIATION),
             reading.beside(group, Role.COHERENCE),
-            sensor=shown,
+            quantity=shown,
             input=_signal(ours, "input", Signal("", said[1])),
             output=_signal(ours, "output", Signal(table.headers[group.first], said[0])),
             origin=f"{table.origin}, {table.named(group.first)}",
@@ -351,7 +351,7 @@ def _units(
 def _is_impedance(
     table: Table,
     group: Group,
-    sensor: Sensor | str | None,
+    quantity: Quantity | str | None,
     magnitude_unit: str | None,
     ours: Mapping[str, str],
     notes: list[str],
@@ -362,13 +362,13 @@ def _is_impedance(
     """
     if ours:  # files of earlier versions call the sensor of an impedance a position
         is_voltage = (ours.get("output label"), ours.get("output unit")) == tuple(VOLTAGE)
-        return ours.get("sensor") == OF_IMPEDANCE or is_voltage
+        return ours.get("quantity") == OF_IMPEDANCE or is_voltage
     headers = [table.headers[at] for role, at in group.columns.items() if role not in NO_GAIN]
     units = {text: gain(text) for text in (str(magnitude_unit or ""), *map(_stated, headers))}
     if any(unit.ohms and OHM.search(text) for text, unit in units.items() if unit):
         return True
     moves = any(motion(unit.output) for unit in units.values() if unit)
-    if sensor is not None or moves or stated_quantities(table):
+    if quantity is not None or moves or stated_quantities(table):
         return False
     is_ratio = any(unit.ohms for unit in units.values() if unit)
     is_named = any(map(is_called_impedance, headers))
@@ -385,6 +385,8 @@ def _written(comments: Sequence[str]) -> dict[str, str]:
     """Fields that `files.csv_text` wrote into comment lines; empty for a file of another origin."""
     pairs = [comment.split(": ", 1) for comment in comments if ": " in comment]
     plain = {name: ESCAPED.sub(lambda code: chr(int(code[1], 16)), text) for name, text in pairs}
+    if "sensor" in plain:  # its name in files of version 0.3
+        plain = {"quantity": plain["sensor"]} | plain
     return plain if MARK in comments else {}
 
 

@@ -19,19 +19,20 @@ from disting.measurement.trend import (
 from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import motion
 from disting.model.presentation import plural, summary
-from disting.quantities import Sensor, as_sensor, other_options
-from disting.renamed import renamed
+from disting.quantities import Quantity, as_quantity, other_options
+from disting.renamed import renamed, renamed_attributes
 
 MOVING = 0.1  # share of the scatter of the speed from which on its mean is reported
-ASSUMED_POSITION = f"output taken as a position; if not, give {other_options(Sensor.POSITION)}"
+ASSUMED_POSITION = f"output taken as a position; if not, give {other_options(Quantity.POSITION)}"
 
 
+@renamed_attributes(sensor="quantity")
 @dataclass(frozen=True, slots=True, eq=False)
 class TimeSeries:
     """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by
     content.
 
-    `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked
+    `quantity` = what `y` shows; `reference`, shape (n,), = what a controller was asked
     for, or None; `left_out` says what else the file has; `columns` = those of the file as they were
     understood. Raises InputError for samples that are not
     finite, constant signals and unequal lengths.
@@ -45,7 +46,7 @@ class TimeSeries:
     u: Real
     y: Real
     sampling_rate: float
-    sensor: Sensor = Sensor.POSITION
+    quantity: Quantity = Quantity.POSITION
     input: Signal = UNNAMED
     output: Signal = UNNAMED
     origin: str = ""
@@ -68,14 +69,14 @@ class TimeSeries:
                 " one record"
             )
         object.__setattr__(self, "sampling_rate", _rate(self.sampling_rate))
-        object.__setattr__(self, "sensor", as_sensor(self.sensor))
+        object.__setattr__(self, "quantity", as_quantity(self.quantity))
         object.__setattr__(self, "input", Signal(*self.input))
         object.__setattr__(self, "output", Signal(*self.output))
 
     def __repr__(self) -> str:
         samples = f"{plural(len(self), 'sample')} at {self.sampling_rate:.6g} Hz"
         seconds = len(self) / self.sampling_rate
-        return summary(self, f"{samples}, {seconds:.4g} s, {self.sensor.value}")
+        return summary(self, f"{samples}, {seconds:.4g} s, {self.quantity.value}")
 
     def __reduce__(self) -> tuple[Any, ...]:
         # arrays stay read-only in a copy
@@ -87,8 +88,8 @@ class TimeSeries:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, TimeSeries):
             return NotImplemented
-        mine = (self.sampling_rate, self.sensor, self.input, self.output)
-        theirs = (other.sampling_rate, other.sensor, other.input, other.output)
+        mine = (self.sampling_rate, self.quantity, self.input, self.output)
+        theirs = (other.sampling_rate, other.quantity, other.input, other.output)
         pairs = ((self.u, other.u), (self.y, other.y), (self.reference, other.reference))
         return mine == theirs and all(same(a, b) for a, b in pairs)
 
@@ -102,7 +103,7 @@ class TimeSeries:
     @renamed(sensor="quantity")
     def response(
         self,
-        quantity: Sensor | str | None = None,
+        quantity: Quantity | str | None = None,
         *,
         period: int | None = None,
         transient: int | None = None,
@@ -146,7 +147,7 @@ class TimeSeries:
         closed = "" if self.reference is None else ", with a reference, which holds in closed loop"
         response = replace(
             the_response,
-            sensor=self.sensor,
+            quantity=self.quantity,
             input=self.input,
             output=self.output,
             origin=self.origin,
@@ -159,7 +160,7 @@ class TimeSeries:
         )
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold
-            response = response.held(held, self.sensor.order)
+            response = response.held(held, self.quantity.order)
         return response if quantity is None else response.to_quantity(quantity)
 
     def _completed(self, method: Method) -> Method:
@@ -168,7 +169,7 @@ class TimeSeries:
             level=float(np.std(self.u)),
             unit=self.input.unit,
             rate=self.sampling_rate,
-            order=self.sensor.order,
+            order=self.quantity.order,
         )
 
     def _by_welch(
@@ -183,14 +184,14 @@ class TimeSeries:
         from disting.measurement.feedback_in_noise import loop_in_noise
 
         is_alone = self.reference is None
-        loop = loop_in_noise(self.u, self.y, self.sensor.order) if is_alone else None
+        loop = loop_in_noise(self.u, self.y, self.quantity.order) if is_alone else None
         options = (self.sampling_rate, segment, band, self.reference, least_coherence)
 
         def estimate(y: Real, order: int) -> FrequencyResponse:
             return welch.estimate(self.u, y, *options, order, loop)
 
-        if self.sensor.order or not removes_trends:
-            return estimate(self.y, self.sensor.order)
+        if self.quantity.order or not removes_trends:
+            return estimate(self.y, self.quantity.order)
         steps = np.diff(self.y)
         speed = Trend(float(steps.mean()))
         # a Hann window gives the first sample no weight: its difference is unknown and free
@@ -205,17 +206,17 @@ class TimeSeries:
         return describe(trend, self.sampling_rate, None, "input", self.input)
 
     def _describe_output(self, trend: Trend) -> str:
-        return describe(trend, self.sampling_rate, self.sensor.order, "output", self.output)
+        return describe(trend, self.sampling_rate, self.quantity.order, "output", self.output)
 
 
-def said(sensor: Sensor | str | None, unit: str = "") -> tuple[Sensor, tuple[str, ...]]:
-    """Sensor quantity of a recorded output: as asked for, or that of its unit, else position, with
+def said(quantity: Quantity | str | None, unit: str = "") -> tuple[Quantity, tuple[str, ...]]:
+    """Quantity of a recorded output: as asked for, or that of its unit, else position, with
     the note that says so.
     """
-    if sensor is not None:
-        return as_sensor(sensor), ()
+    if quantity is not None:
+        return as_quantity(quantity), ()
     own = motion(unit)
-    return (Sensor.POSITION, (ASSUMED_POSITION,)) if own is None else (own.sensor, ())
+    return (Quantity.POSITION, (ASSUMED_POSITION,)) if own is None else (own.quantity, ())
 
 
 def _check_method(

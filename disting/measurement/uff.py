@@ -25,10 +25,10 @@ from disting.measurement.response import (
 )
 from disting.measurement.source import Source
 from disting.measurement.understanding import record_format
-from disting.model.chain import Sensor, as_sensor
+from disting.model.chain import Quantity, as_quantity
 
 RESPONSE, COHERENCE = 4, 6
-QUANTITIES = {8: Sensor.POSITION, 11: Sensor.VELOCITY, 12: Sensor.ACCELERATION}
+QUANTITIES = {8: Quantity.POSITION, 11: Quantity.VELOCITY, 12: Quantity.ACCELERATION}
 DIRECTIONS = {0: "", 1: "+x", 2: "+y", 3: "+z", 4: "+rx", 5: "+ry", 6: "+rz"}
 # Columns of numbers in a line that belong together, and the longest line, by type of the ordinate
 # and of the abscissa
@@ -43,7 +43,11 @@ Record = Mapping[str, Any]
 
 
 def read_uff(
-    file: Source, *, record: int | None = None, quantity: Sensor | str | None = None, sign: int = 1
+    file: Source,
+    *,
+    record: int | None = None,
+    quantity: Quantity | str | None = None,
+    sign: int = 1,
 ) -> FrequencyResponse:
     """Frequency response number `record` (from 1, default 1) of a file; its coherence is taken
     from the file where it is there.
@@ -72,7 +76,7 @@ def read_uff(
                 2 * np.pi * np.asarray(chosen["x"], dtype=float),
                 data if as_sign(sign) > 0 else -data,
                 coherence=_coherence(records, chosen),
-                sensor=shown,
+                quantity=shown,
                 input=Signal(_node(chosen, "ref"), _unit(chosen, "orddenom_axis_units_lab")),
                 output=Signal(_node(chosen, "rsp"), _unit(chosen, "ordinate_axis_units_lab")),
                 origin=f"{file.name}, {_place(chosen)}",
@@ -120,13 +124,13 @@ def _check_columns(text: str) -> None:
                 raise ValueError(f"line {number} of the numbers is not of whole columns")
 
 
-def _quantity(record: Record, asked: Sensor | str | None) -> tuple[Sensor, str | None]:
+def _quantity(record: Record, asked: Quantity | str | None) -> tuple[Quantity, str | None]:
     if asked is not None:
-        return as_sensor(asked), None
+        return as_quantity(asked), None
     sensor = QUANTITIES.get(record.get("ordinate_spec_data_type", 0))
     if sensor is not None:
         return sensor, None
-    return Sensor.ACCELERATION, ASSUMED_ACCELERATION
+    return Quantity.ACCELERATION, ASSUMED_ACCELERATION
 
 
 def _coherence(records: Sequence[Record], response: Record) -> Any:

@@ -10,7 +10,7 @@ from math import pi
 from typing import NamedTuple
 
 from disting.errors import InputError
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 
 class Motion(NamedTuple):
@@ -21,9 +21,9 @@ class Motion(NamedTuple):
     factor: float
 
     @property
-    def sensor(self) -> Sensor:
+    def quantity(self) -> Quantity:
         """The quantity that has such a unit."""
-        return tuple(Sensor)[self.order]
+        return tuple(Quantity)[self.order]
 
 
 MOTIONS = {
@@ -80,7 +80,7 @@ REFERRED = re.compile(r"(dB|Np|%)(?:\s+re[fl]?\.?:?)?(?:\s+1?\s*|(?=\())(.+)", r
 BETWEEN = r"[\s.*·]"
 SUFFIX = {
     n: f"{'*/'[n > 0]}s{f'^{abs(n)}' if abs(n) > 1 else ''}" if n else ""
-    for n in range(1 - len(Sensor), len(Sensor))
+    for n in range(1 - len(Quantity), len(Quantity))
 }
 PER_TIME = {text: steps for steps, text in SUFFIX.items()}
 _CLOSED = {name.replace(" ", ""): unit for name, unit in DRIVES.items()}
@@ -216,28 +216,28 @@ def _products(text: str) -> str:
     return re.sub(r"[\s*·.]+([A-Za-z]+)\^?-1", r"/\1", plain)
 
 
-def unit_as(text: str, sensor: Sensor, wanted: Sensor) -> str:
+def unit_as(text: str, quantity: Quantity, wanted: Quantity) -> str:
     """The unit of the same motion as another sensor shows it; "" where that is not known, or
     where it is the unit of another quantity than `sensor`.
 
-    >>> unit_as("cm", Sensor.POSITION, Sensor.ACCELERATION)
+    >>> unit_as("cm", Quantity.POSITION, Quantity.ACCELERATION)
     'cm/s^2'
     """
     the_unit, name, steps = _parted(text)
     if the_unit is None:
-        return text if sensor is wanted else ""
-    if the_unit.sensor is not sensor:
+        return text if quantity is wanted else ""
+    if the_unit.quantity is not quantity:
         return ""
-    return name + SUFFIX[steps + wanted.order - sensor.order]
+    return name + SUFFIX[steps + wanted.order - quantity.order]
 
 
-def agree(text: str, sensor: Sensor) -> None:
+def agree(text: str, quantity: Quantity) -> None:
     """Raise InputError where a unit is that of another quantity than the output was read as."""
     the_unit = motion(text)
-    if the_unit is not None and the_unit.sensor is not sensor:
+    if the_unit is not None and the_unit.quantity is not quantity:
         raise InputError(
-            f"the output in {text} is a {the_unit.sensor.value}, the response is read as that of a"
-            f" {sensor.value}: give --quantity {the_unit.sensor.value}, or another unit"
+            f"the output in {text} is a {the_unit.quantity.value}, the response is read as that of"
+            f" a {quantity.value}: give --quantity {the_unit.quantity.value}, or another unit"
         )
 
 
@@ -266,6 +266,6 @@ def _parted(text: str) -> tuple[Motion | None, str, int]:
     plain = re.sub(r"\s", "", text).replace("²", "^2").replace("**2", "^2").replace("/s2", "/s^2")
     for suffix, steps in sorted(PER_TIME.items(), key=lambda parts: -len(parts[0])):
         unit = MOTIONS.get(plain.removesuffix(suffix)) if plain.endswith(suffix) else None
-        if unit is not None and 0 <= unit.order + steps < len(Sensor):
+        if unit is not None and 0 <= unit.order + steps < len(Quantity):
             return unit._replace(order=unit.order + steps), plain.removesuffix(suffix), steps
     return None, "", 0

@@ -26,7 +26,7 @@ from disting.measurement.scaling import in_omega, taken_unit
 from disting.measurement.table import rate_of
 from disting.measurement.time_series import TimeSeries, said
 from disting.measurement.understanding import Use, record_variables, sentence
-from disting.model.chain import Sensor, as_sensor
+from disting.model.chain import Quantity, as_quantity
 
 HERTZ_NAMES = ("f", "freq", "frequency", "Frequency", "f_Hz", "fHz", "freqs", "frequencies", "F")
 OMEGA_NAMES = ("w", "omega", "Omega", "om", "wout")
@@ -53,7 +53,7 @@ def from_variables(
     coherence: str | None = None,
     frequency_unit: str | None = None,
     index: int | Sequence[int] | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from variables of these names; without names, usual ones (f, freq, w, omega; G, H,
@@ -78,7 +78,9 @@ def from_variables(
         row(_numeric(arrays, chosen, origin), len(values), index, chosen) * as_sign(sign),
         scatter[1],
         shared[1],
-        sensor=as_sensor(quantity or (Sensor.POSITION if impedance else Sensor.ACCELERATION)),
+        quantity=as_quantity(
+            quantity or (Quantity.POSITION if impedance else Quantity.ACCELERATION)
+        ),
         output=Signal(chosen),
         origin=f"{origin}, {chosen}",
         is_impedance=impedance,
@@ -117,7 +119,7 @@ def series_from_variables(
     reference: str | None = None,
     sampling_rate: float | str | None = None,
     time: str | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     sign: int = 1,
 ) -> TimeSeries:
     """Samples of the variables `input` and `output`; `sampling_rate` [Hz] = a number or a

@@ -31,11 +31,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from disting.errors import ConstraintViolation, InputError, enumeration, short
 from disting.model.presentation import LONGEST, NotebookPicture, plural, summary
 from disting.quantities import (
-    Sensor as Sensor,
-    as_sensor as as_sensor,
+    Quantity as Quantity,
+    as_quantity as as_quantity,
+    quantity_of_model,
     refuse_improper,
-    sensor_of_model,
 )
+from disting.renamed import renamed_attributes
 
 if TYPE_CHECKING:
     import control
@@ -326,6 +327,7 @@ class StateSpace:
 
 AS_IT_IS = "as it is"  # an experiment that changes nothing, in words
 PORTS = (0, 0, 1, 0, 1)  # gap, ends of the force and of the sensor, where nothing is said
+IN_FILES = {"quantity": "sensor"}  # fields that keys and files call otherwise
 LEGEND = (
     "# ground, ~ spring, = spring and damper, comma: ground damper,\n"
     "F and f: force and its reference, S and s: sensor and its reference"
@@ -338,12 +340,12 @@ class Premise:
     sensor quantity, and further changes of the measurement. A network says its dampers and its
     quantity itself: of it both are None.
 
-    >>> str(Premise(True, Sensor.ACCELERATION, ("as it is", "sensor 3, mass 2 locked")))
+    >>> str(Premise(True, Quantity.ACCELERATION, ("as it is", "sensor 3, mass 2 locked")))
     'damped, acceleration, measured as it is and with sensor 3, mass 2 locked'
     """
 
     damped: bool | None
-    quantity: Sensor | None
+    quantity: Quantity | None
     experiments: tuple[str, ...] = ()
 
     def __str__(self) -> str:
@@ -368,21 +370,22 @@ class Premise:
             return Premise(None, None, experiments)
         if type(data["damped"]) is not bool:
             raise TypeError("whether a chain is damped is true or false")
-        return Premise(data["damped"], Sensor(data["quantity"]), experiments)
+        return Premise(data["damped"], Quantity(data["quantity"]), experiments)
 
 
+@renamed_attributes(sensor="quantity")
 @dataclass(frozen=True, slots=True)
 class Chain(NotebookPicture):
     """One chain model; immutable and hashable, its content is its identity.
 
     Arguments: `n_masses` = N_B; the indices n_gap, n_act-, n_act+, n_meas-, n_meas+ of section 5.1
-    (0 = ground); the sensor quantity; `damped` = a damper beside every spring, as every name of a
-    model means it too unless undamped is said; `ground_dampers` = the masses with a damper to the
-    ground; `lag` = a first-order torque lag 1/(1 + T1 s) [T1 in s]; `dead_time` = a factor
-    exp(-Td s) [Td in s]; `gap_damper` = a damper across the gap, such as the friction of a bearing
-    between a rotor and its housing. The class of the paper does not have it: fits and simulations
-    know it, verdicts on chains refuse it, and compare it as a network. Raises ConstraintViolation
-    where (36) or (37) is broken, InputError for other bad values.
+    (0 = ground); `quantity` = what the sensor shows; `damped` = a damper beside every spring, as
+    every name of a model means it too, without the word undamped; `ground_dampers` = the masses
+    with a damper to the ground; `lag` = a first-order torque lag 1/(1 + T1 s) [T1 in s];
+    `dead_time` = a factor exp(-Td s) [Td in s]; `gap_damper` = a damper across the gap, such as the
+    friction of a bearing between a rotor and its housing. The class of the paper does not have it:
+    fits and simulations know it, verdicts on chains refuse it, and compare it as a network. Raises
+    ConstraintViolation where (36) or (37) is broken, InputError for other bad values.
 
     >>> Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2).parameters
     ('m1', 'm2', 'k01', 'd01')
@@ -394,7 +397,7 @@ class Chain(NotebookPicture):
     act_plus: int = 1
     meas_minus: int = 0
     meas_plus: int = 1
-    sensor: Sensor = Sensor.ACCELERATION
+    quantity: Quantity = Quantity.ACCELERATION
     damped: bool = True
     ground_dampers: tuple[int, ...] = ()
     lag: bool = False
@@ -420,7 +423,7 @@ class Chain(NotebookPicture):
             raise InputError(f"a chain has at least one mass, not {self.n_masses}")
         for broken in violations(self.indices, (36, 37)):
             raise ConstraintViolation(broken.refusal(self.indices))
-        object.__setattr__(self, "sensor", sensor_of_model(self.sensor))
+        object.__setattr__(self, "quantity", quantity_of_model(self.quantity))
         object.__setattr__(self, "ground_dampers", _damper_set(self.ground_dampers, self.n_masses))
 
     def __repr__(self) -> str:
@@ -448,7 +451,8 @@ class Chain(NotebookPicture):
         rad/s or rad/s^2 per Nm. Raises InputError for missing, unknown or negative values, and at
         an undamped resonance.
 
-        >>> abs(Chain(1, damped=False, sensor="velocity").frequency_response({"m1": 2.0}, [1, 10]))
+        >>> drive = Chain(1, damped=False, quantity="velocity")
+        >>> abs(drive.frequency_response({"m1": 2.0}, [1, 10]))
         array([0.5 , 0.05])
         """
         response: NDArray[np.complex128] = self._presenter.frequency_response(self, values, omega)
@@ -462,7 +466,7 @@ class Chain(NotebookPicture):
         `states` and `units` of what is returned name them. `values` and errors as in
         `frequency_response`.
 
-        >>> space = Chain(1, damped=False, sensor="position").state_space({"m1": 2.0})
+        >>> space = Chain(1, damped=False, quantity="position").state_space({"m1": 2.0})
         >>> space.states, space.B.tolist(), space.units["y"]
         (('x1', 'v1'), [[0.0], [0.5]], 'm')
         """
@@ -474,7 +478,7 @@ class Chain(NotebookPicture):
         the dead time; `values` and errors as in `frequency_response`. Raises InputError where
         python-control is not installed (`pip install "disting[control]"`).
 
-        >>> drive = Chain(1, damped=False, sensor="position").to_control({"m1": 2.0})
+        >>> drive = Chain(1, damped=False, quantity="position").to_control({"m1": 2.0})
         >>> drive.nstates, drive.state_labels, complex(drive(1j))
         (2, ['x1', 'v1'], (-0.5+0j))
         """
@@ -484,7 +488,14 @@ class Chain(NotebookPicture):
     def written_fields(self) -> dict[str, Any]:
         """Fields of its text in keys and files: `gap_damper` only where there is one."""
         names = [f.name for f in fields(self) if f.name != "gap_damper" or self.gap_damper]
-        return {name: getattr(self, name) for name in names}
+        return {IN_FILES.get(name, name): getattr(self, name) for name in names}
+
+    @staticmethod
+    def from_written_fields(written: Mapping[str, Any]) -> "Chain":
+        """Inverse of `written_fields`; raises TypeError for other names, and as `Chain`."""
+        own = {name: written[stored] for name, stored in IN_FILES.items() if stored in written}
+        rest = {name: x for name, x in written.items() if name not in IN_FILES.values()}
+        return Chain(**own, **rest)
 
     @property
     def indices(self) -> Indices:
@@ -501,12 +512,12 @@ class Chain(NotebookPicture):
     @property
     def order(self) -> int:
         """Number of time derivatives of the position that the sensor measures."""
-        return self.sensor.order
+        return self.quantity.order
 
     @property
     def premise(self) -> Premise:
         """Damping and sensor quantity."""
-        return Premise(self.damped, self.sensor)
+        return Premise(self.damped, self.quantity)
 
     @property
     def structure(self) -> Structure:
@@ -526,7 +537,7 @@ class Chain(NotebookPicture):
     def __str__(self) -> str:
         ports = f"force {self.act_plus}-{self.act_minus}, sensor {self.meas_plus}-{self.meas_minus}"
         dampers = "+".join(map(str, self.ground_dampers))
-        extras = [self.sensor.value] if self.sensor is not Sensor.ACCELERATION else []
+        extras = [self.quantity.value] if self.quantity is not Quantity.ACCELERATION else []
         extras += ["damped"] if self.damped else []
         extras += [f"ground dampers {dampers}"] if dampers else []
         extras += ["damper across the gap"] if self.gap_damper else []
@@ -547,7 +558,7 @@ def _structure(chain: Chain) -> Structure:
     elements += [GroundDamper(i) for i in chain.ground_dampers]
     ports = Ports(chain.act_minus, chain.act_plus, chain.meas_minus, chain.meas_plus)
     return Structure(
-        chain.n_masses, tuple(elements), ports, chain.sensor.order, chain.lag, chain.dead_time
+        chain.n_masses, tuple(elements), ports, chain.quantity.order, chain.lag, chain.dead_time
     )
 
 

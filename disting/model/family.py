@@ -14,7 +14,8 @@ from functools import cache, cached_property
 from disting.errors import InputError, short
 from disting.model.chain import Chain, Indices, violations
 from disting.model.presentation import NotebookTable
-from disting.quantities import Sensor, sensor_of_model
+from disting.quantities import Quantity, quantity_of_model
+from disting.renamed import renamed_attributes
 
 
 @cache  # asked for at every look-up of a pair
@@ -79,6 +80,7 @@ def _with_gap(n: int, gap: int) -> int:
 MOST_MASSES = 40
 
 
+@renamed_attributes(sensor="quantity")
 @dataclass(frozen=True)
 class Family(NotebookTable):
     """The chains with `n_masses` masses, in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
@@ -92,7 +94,7 @@ class Family(NotebookTable):
 
     n_masses: int
     damped: bool = True
-    sensor: Sensor = Sensor.ACCELERATION
+    quantity: Quantity = Quantity.ACCELERATION
 
     def __post_init__(self) -> None:
         if (
@@ -103,10 +105,10 @@ class Family(NotebookTable):
             raise InputError(f"a family has at least one mass, not {short(self.n_masses)}")
         if not isinstance(self.damped, bool):
             raise InputError(f"damped is True or False, not {short(self.damped)}")
-        object.__setattr__(self, "sensor", sensor_of_model(self.sensor))
+        object.__setattr__(self, "quantity", quantity_of_model(self.quantity))
 
     def __repr__(self) -> str:
-        return f"Family({self.n_masses}, damped={self.damped}, sensor={self.sensor.value!r})"
+        return f"Family({self.n_masses}, damped={self.damped}, quantity={self.quantity.value!r})"
 
     @cached_property
     def models(self) -> tuple[Chain, ...]:
@@ -123,7 +125,7 @@ class Family(NotebookTable):
         return (
             isinstance(chain, Chain)
             and chain.n_masses == self.n_masses
-            and chain == Chain(*chain.indices, sensor=self.sensor, damped=self.damped)
+            and chain == Chain(*chain.indices, quantity=self.quantity, damped=self.damped)
             and not any(violations(chain.indices, (38,)))  # no chain breaks (36) or (37)
         )
 
@@ -137,9 +139,9 @@ class Family(NotebookTable):
 
     def number(self, chain: Chain) -> int:
         """Number of a chain in this family; raises InputError for a chain outside it."""
-        if replace(chain, sensor=self.sensor, damped=self.damped) not in self:
+        if replace(chain, quantity=self.quantity, damped=self.damped) not in self:
             raise InputError(f"the chain with {chain} is not in the {self.n_masses}-mass family")
         return before(chain.indices) + 1
 
     def _model(self, place: int) -> Chain:
-        return Chain(*after(self.n_masses, place), sensor=self.sensor, damped=self.damped)
+        return Chain(*after(self.n_masses, place), quantity=self.quantity, damped=self.damped)

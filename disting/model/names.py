@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from disting.errors import ConstraintViolation, InputError, short
-from disting.model.chain import Chain, Damper, Sensor, as_sensor
+from disting.model.chain import Chain, Damper, Quantity, as_quantity
 from disting.model.family import MOST_MASSES, Family
 
 MOST_DIGITS = 99  # of a value's decimal exponent, and of its text
@@ -106,7 +106,10 @@ def chain_of(model: Chain | str, family: Family, *, masses: int = 0) -> Chain:
 
 
 def read_together(
-    models: Sequence[Chain | str], *, damped: bool | None = None, sensor: Sensor | str | None = None
+    models: Sequence[Chain | str],
+    *,
+    damped: bool | None = None,
+    quantity: Quantity | str | None = None,
 ) -> list[Chain]:
     """Models that are named together: what one of them does not say is taken from the others.
 
@@ -123,7 +126,7 @@ def read_together(
     family = Family(
         1,
         pattern.damped if damped is None else damped,
-        pattern.sensor if sensor is None else as_sensor(sensor),
+        pattern.quantity if quantity is None else as_quantity(quantity),
     )
     sizes = {m.n_masses if isinstance(m, Chain) else read(str(m)).masses for m in models} - {0}
     if len(sizes) == 1:
@@ -140,8 +143,8 @@ def name_of(chain: Chain) -> str:
     >>> name_of(Chain(40))
     '40:1'
     """
-    plain = Chain(*chain.indices, sensor=chain.sensor, damped=chain.damped)
-    family = Family(chain.n_masses, chain.damped, chain.sensor)
+    plain = Chain(*chain.indices, quantity=chain.quantity, damped=chain.damped)
+    family = Family(chain.n_masses, chain.damped, chain.quantity)
     numbered = chain.n_masses <= MOST_MASSES and plain in family
     name = f"{chain.n_masses}:{family.number(plain)}" if numbered else f"({plain})"
     return name + extras_of(chain)
@@ -159,17 +162,17 @@ def is_whole_name(text: str) -> bool:
     return (match is not None and bool(match[1])) or INDICES.fullmatch(text) is not None
 
 
-def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None:
+def chain_of_whole_name(text: str, damped: bool, quantity: Quantity) -> Chain | None:
     """The chain of such a name, with this damping and sensor; None where there is none.
 
-    >>> chain_of_whole_name("2:1+lag", False, Sensor.VELOCITY).parameters
+    >>> chain_of_whole_name("2:1+lag", False, Quantity.VELOCITY).parameters
     ('m1', 'm2', 'k12', 'T1')
-    >>> chain_of_whole_name("3:999", False, Sensor.VELOCITY) is None
+    >>> chain_of_whole_name("3:999", False, Quantity.VELOCITY) is None
     True
     """
     across = re.search(ACROSS, text)
     if across:
-        plain_chain = chain_of_whole_name(text.replace(across[0], "", 1), damped, sensor)
+        plain_chain = chain_of_whole_name(text.replace(across[0], "", 1), damped, quantity)
         if plain_chain is None or not plain_chain.gap:
             return None
         chain = replace(plain_chain, gap_damper=True)
@@ -177,9 +180,9 @@ def chain_of_whole_name(text: str, damped: bool, sensor: Sensor) -> Chain | None
     indices = INDICES.fullmatch(text)
     try:
         if indices is None:
-            return read(text).chain(Family(1, damped, sensor))
+            return read(text).chain(Family(1, damped, quantity))
         n, gap, plus, minus, shown_plus, shown_minus = map(int, indices.groups()[:6])
-        plain = Chain(n, gap, minus, plus, shown_minus, shown_plus, sensor, damped)
+        plain = Chain(n, gap, minus, plus, shown_minus, shown_plus, quantity, damped)
         chain = extend(plain, indices[7])
     except (ConstraintViolation, InputError):
         return None

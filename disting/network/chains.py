@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from disting.errors import ConstraintViolation, InputError
-from disting.model.chain import Chain, Damper, GroundDamper, Mass, Sensor, Sort, Spring, Structure
+from disting.model.chain import Chain, Damper, GroundDamper, Mass, Quantity, Sort, Spring, Structure
 from disting.model.names import name_of
 from disting.model.presentation import AS_CHAIN
 from disting.network.network import Element, Network, Port
@@ -20,7 +20,7 @@ def of_chain(chain: Chain, name: str = "network") -> Network:
         raise InputError("a lag and a dead time are no elements of a network: leave them away")
     force, sensor = ports_of(chain.structure)
     elements = elements_of(chain.structure)
-    return Network(elements, (force,), (sensor,), chain.sensor.order, name)
+    return Network(elements, (force,), (sensor,), chain.quantity.order, name)
 
 
 def elements_of(structure: Structure) -> tuple[Element, ...]:
@@ -59,7 +59,7 @@ def as_chain(network: Network) -> Chain | None:
     try:
         chain = Chain(
             n, gaps[0], force.minus, force.plus, sensor.minus, sensor.plus,
-            list(Sensor)[network.order], damped, dampers,
+            list(Quantity)[network.order], damped, dampers,
         )  # fmt: skip
     except (ConstraintViolation, InputError):
         return None

@@ -12,7 +12,7 @@ from enum import StrEnum
 from functools import lru_cache
 
 from disting.errors import ConstraintViolation, InputError, short
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.names import chain_of_whole_name, is_whole_name
 from disting.network.chains import of_chain
 from disting.network.isomorphism import is_same_network
@@ -51,12 +51,12 @@ def naming_of(name: str, model: Chain | Network) -> Naming:
     >>> [str(naming_of(name, cell)) for name in ("my cell", "R5-p(C7,R2)", "p(R0,R1-C1)")]
     ['free', 'denoted', 'false']
     """
-    order = model.sensor.order if isinstance(model, Chain) else model.order
-    return compare_name(name, lambda denoted: is_same(denoted, model), list(Sensor)[order])
+    order = model.quantity.order if isinstance(model, Chain) else model.order
+    return compare_name(name, lambda denoted: is_same(denoted, model), list(Quantity)[order])
 
 
 def compare_name(
-    name: str, is_model: Callable[[Chain | Network], bool], quantity: Sensor
+    name: str, is_model: Callable[[Chain | Network], bool], quantity: Quantity
 ) -> Naming:
     """Compare a model with what its name denotes; `is_model`: the test of one of the readings."""
     found = readings(name, quantity)
@@ -82,7 +82,7 @@ def refuse_misnamed(name: str, naming: Naming) -> None:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def readings(name: str, quantity: Sensor) -> tuple[Chain | Network, ...] | None:
+def readings(name: str, quantity: Quantity) -> tuple[Chain | Network, ...] | None:
     """The models that a name can denote, with sensors of this quantity unless it states another
     one; none for a name of a chain that does not exist, None for free text. What verdicts add to
     a name, to tell two models of one name apart, may follow it.
@@ -128,7 +128,7 @@ def _elements(model: Chain | Network) -> Network:
     return of_chain(replace(model, lag=False, dead_time=False))
 
 
-def _read(name: str, notation: str, quantity: Sensor) -> Network | None:
+def _read(name: str, notation: str, quantity: Quantity) -> Network | None:
     try:
         return network_of(name, notation, quantity=quantity)
     except InputError:

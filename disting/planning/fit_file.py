@@ -221,7 +221,7 @@ def _response(chain: Chain, values: Parameters, omega: Real) -> Complex:
 
 def _listed(name: str, chain: Chain) -> Chain:
     """The structure of a name, with the damping and the sensor of a chain."""
-    return chain_of(name, Family(chain.n_masses, chain.damped, chain.sensor))
+    return chain_of(name, Family(chain.n_masses, chain.damped, chain.quantity))
 
 
 def _whole(entries: Parameters, chain: Chain) -> Iterator[Parameters]:

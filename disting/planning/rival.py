@@ -50,7 +50,7 @@ from disting.fit.search.setup import Setup
 from disting.fit.search.starts import Scale, natural, scale, stack
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.presentation import summary
 from disting.network.network import Network
 from disting.simulation.mechanics import check_values
@@ -75,16 +75,16 @@ class Search:
     usual: Mapping[str, float]
 
 
-def sensor_of(structure: AnyStructure) -> Sensor:
+def sensor_of(structure: AnyStructure) -> Quantity:
     """Quantity of its sensor; for circuits and compartments the quantity in place of a position."""
-    return list(Sensor)[structure.order]
+    return list(Quantity)[structure.order]
 
 
-def shown_as(structure: AnyStructure, sensor: Sensor) -> AnyStructure:
+def shown_as(structure: AnyStructure, quantity: Quantity) -> AnyStructure:
     """The structure with a sensor of this quantity; circuits and compartments have one only."""
     if isinstance(structure, Chain):
-        return replace(structure, sensor=sensor)
-    return replace(structure, order=sensor.order)
+        return replace(structure, quantity=quantity)
+    return replace(structure, order=quantity.order)
 
 
 def plant_of(structure: AnyStructure, omega: Real) -> AnyPlant:
@@ -347,7 +347,7 @@ def fitted_rival(
     _check(omega, rho)
     _check_ports(model, rival)
     responses = responses_of(model, values, omega)
-    cost = _cost([FrequencyResponse(omega, g, sensor=sensor) for g in responses], 1.0 / rho)
+    cost = _cost([FrequencyResponse(omega, g, quantity=sensor) for g in responses], 1.0 / rho)
     the_search = search(
         model, values, rival, cost, store=store, executor=executor, progress=progress
     )

@@ -151,7 +151,7 @@ def describe(chain: Chain) -> str:
     said += [f"{only} between {_node(chain.gap)} and {_node(chain.gap + 1)}"]
     said += [f"force from {_node(chain.act_minus)} on {_node(chain.act_plus)}"]
     measured, reference = _node(chain.meas_plus), _node(chain.meas_minus)
-    said += [f"{chain.sensor.value} of {measured} relative to {reference}"]
+    said += [f"{chain.quantity.value} of {measured} relative to {reference}"]
     said += [f"damper from mass {i} to the ground" for i in chain.ground_dampers]
     said += ["first-order lag of the force"] if chain.lag else []
     said += ["dead time"] if chain.dead_time else []

@@ -117,7 +117,7 @@ def bode(response: FrequencyResponse) -> FigureFiles:
         panels[0].set_ylim(low, high)
         logarithmic(panels[0].yaxis, low, high)
         of = response_unit(response)
-        shown = f" [{of}]" if of else f", {response.sensor} per input"
+        shown = f" [{of}]" if of else f", {response.quantity} per input"
         panels[0].set_ylabel(f"Amplitude{shown}")
         _uncertain(panels[1], series, phase, phase - np.degrees(wide), phase + np.degrees(wide))
         degrees(panels[1].yaxis, float(np.ptp(phase)))

@@ -20,7 +20,7 @@ from markupsafe import Markup
 from disting.catalogs import Catalog
 from disting.evidence.positive import Share
 from disting.general.matrix_model import AnyModel
-from disting.model.chain import Chain, Sensor, Sort
+from disting.model.chain import Chain, Quantity, Sort
 from disting.network import Element, Network
 from disting.network.gears import unknown_ratios, without_gears
 from disting.network.network import edges
@@ -86,7 +86,7 @@ def _payload(catalog: Catalog, first: tuple[int, int]) -> Markup:
             "folder": folder_of(catalog),
             "masses": catalog.n_masses,
             "damped": catalog.damped,
-            "order": catalog.family[1].sensor.order,
+            "order": catalog.family[1].quantity.order,
             "drawing": {
                 "size": [scene.width, scene.height],
                 "wall": WALL,
@@ -261,7 +261,7 @@ def drawing_of(machine: Network) -> dict[str, object]:
     return {
         "masses": len(machine.nodes),
         "damped": any(e.letter == "d" for e in machine.elements),
-        "order": Sensor.ACCELERATION.order,  # what the page shows; verdicts are those of any
+        "order": Quantity.ACCELERATION.order,  # what the page shows; verdicts are those of any
         "joints": [[number[i], number[j], *gear] for (i, j, *gear) in joints.values()],
         "kinds": [kind for _, kind, _ in values],
         "places": [place for *_, place in values],

@@ -20,7 +20,7 @@ from itertools import accumulate, combinations
 from math import cos, pi, sin
 
 from disting.general import AnyModel, as_chain
-from disting.model.chain import Chain, Sensor, Sort
+from disting.model.chain import Chain, Quantity, Sort
 from disting.network import Element, Network
 from disting.network.network import edges
 from disting.report.drawing import draw
@@ -515,7 +515,7 @@ def describe_network(network: Network) -> str:
     for signs, side in zip(port_signs(network), sides, strict=True):
         for sign, p in zip(signs, side, strict=True):
             other = f" against {p.minus or end}" if p.minus or network.sort is Sort.CIRCUIT else ""
-            shown = f" ({list(Sensor)[network.order]})" if sign[0] == "y" else ""
+            shown = f" ({list(Quantity)[network.order]})" if sign[0] == "y" else ""
             ports.append(f"{sign}{shown} at {p.plus}{other}")
     if network.inputs == network.outputs and network.sort is Sort.CIRCUIT:
         ports = [f"port between {p.plus} and {p.minus}" for p in network.inputs]

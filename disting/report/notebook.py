@@ -267,7 +267,7 @@ def _response(shown: FrequencyResponse) -> str:
     unit = f" [{response_unit(shown)}]" if response_unit(shown) else ""
     rows = [
         ("lines", f"{len(shown)}, {low} to {high} Hz"),
-        ("shows", f"{shown.sensor} per input{unit}"),
+        ("shows", f"{shown.quantity} per input{unit}"),
         ("amplitude", f"{readable(float(size.min()))} to {readable(float(size.max()))}"),
         ("input", typeset(str(shown.input))),
         ("output", typeset(str(shown.output))),
@@ -497,7 +497,7 @@ def _plot_response(shown: FrequencyResponse, ax: Any, style: Style) -> "tuple[Ax
     phase = np.unwrap(np.angle(shown.G))
     _bode(panels, shown.frequency, np.abs(shown.G), phase, style)
     unit = response_unit(shown)
-    panels[0].set_ylabel(f"Amplitude [{unit}]" if unit else f"{shown.sensor} per input")
+    panels[0].set_ylabel(f"Amplitude [{unit}]" if unit else f"{shown.quantity} per input")
     if "label" in style:
         panels[0].legend()
     return panels

@@ -183,7 +183,7 @@ def _payload(
         version=__version__,
         families=pages,
         motion=motion_of(catalog),
-        order=catalog.family[1].sensor.order,
+        order=catalog.family[1].quantity.order,
         chains=[chain.indices[1:] for chain in catalog.family],
         values=[start_values(chain) for chain in catalog.family],
         known={row.number: said for row in catalog.rows if (said := unknown_parameters(row))},

@@ -23,7 +23,7 @@ from disting.errors import InputError, enumeration, short
 from disting.files import read_bounded
 from disting.measurement import Signal, TimeSeries
 from disting.measurement.arrays import Complex, Real
-from disting.model.chain import Chain, Sensor, Sort
+from disting.model.chain import Chain, Quantity, Sort
 from disting.network.network import Network
 from disting.simulation.mechanics import (
     AnyModel,
@@ -305,7 +305,7 @@ def _record(
         u=np.tile(period, bench.periods) + bench.input_noise * noise[0],
         y=np.round(recorded / bench.quantum) * bench.quantum if bench.quantum else recorded,
         sampling_rate=bench.sampling_rate,
-        sensor=list(Sensor)[form_of(model).order],
+        quantity=list(Quantity)[form_of(model).order],
         input=signals[0],
         output=signals[1],
         origin="simulation",
@@ -370,7 +370,7 @@ def _lines(period: Real) -> Complex:
     return np.asarray(np.where(keep, spectrum, 0))
 
 
-DEMO_MODEL = Chain(2, sensor=Sensor.POSITION, damped=True, ground_dampers=(1,), dead_time=True)
+DEMO_MODEL = Chain(2, quantity=Quantity.POSITION, damped=True, ground_dampers=(1,), dead_time=True)
 DEMO_PARAMETERS: Mapping[str, float] = MappingProxyType(
     {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08, "b1": 0.1, "Td": 3e-4}
 )

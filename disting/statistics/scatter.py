@@ -308,7 +308,7 @@ def scatter(measured: FrequencyResponse, fitted: Sequence[Complex] = ()) -> Scat
 
 def _sources(measured: FrequencyResponse, size: Real) -> Real:
     """The sources of a bench over the lines of a response of amplitudes `size`."""
-    return sources(measured.omega, size, measured.sensor.order, measured.drive)
+    return sources(measured.omega, size, measured.quantity.order, measured.drive)
 
 
 def _from_neighbours(

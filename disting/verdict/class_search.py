@@ -65,7 +65,7 @@ def classes(
     Raises InputError for chains that differ in size, sensor or dampers beside the springs, or that
     have a dead time.
     """
-    if len({(c.n_masses, c.sensor, c.damped) for c in chains}) != 1 or any(
+    if len({(c.n_masses, c.quantity, c.damped) for c in chains}) != 1 or any(
         c.dead_time for c in chains
     ):
         raise InputError(

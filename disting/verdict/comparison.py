@@ -24,7 +24,7 @@ from disting.evidence.conditions import Ranks
 from disting.experiments.experiment import Experiment
 from disting.experiments.measured_network import measure
 from disting.general import AnyModel, MatrixModel, Model
-from disting.model.chain import Chain, Sensor, Structure, as_sensor
+from disting.model.chain import Chain, Quantity, Structure, as_quantity
 from disting.model.names import read_together
 from disting.model.question import Domain
 from disting.renamed import renamed
@@ -60,7 +60,7 @@ def prove(
     seconds: float = SECONDS,
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
 ) -> Verdict:
     """The verdict with certainty PROVEN if it rests on a rank that can be proven in time, else as
     it is; the models as `compare` takes them. Raises InputError for texts that name no models.
@@ -142,7 +142,7 @@ def compare(
     right: Given,
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]] = (),
     domain: Domain | str | None = None,
     query: Query | None = None,
@@ -195,7 +195,7 @@ def findings(
     right: Given,
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> tuple[Step, ...]:
@@ -232,7 +232,7 @@ def identifiability(
     model: Given,
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     experiments: Sequence[Experiment] = (),
     domain: Domain | str = Domain.POSITIVE,
     engine: Engine | None = None,
@@ -263,9 +263,9 @@ def identifiability(
     (1, 'global')
     """
     engine, over = engine or Engine(), as_domain(domain)
-    model = model_of(model, Sensor.ACCELERATION if quantity is None else as_sensor(quantity))
+    model = model_of(model, Quantity.ACCELERATION if quantity is None else as_quantity(quantity))
     if isinstance(model, str):
-        (model,) = read_together([model], damped=damped, sensor=quantity)
+        (model,) = read_together([model], damped=damped, quantity=quantity)
     if not isinstance(model, Chain | Model | MatrixModel):
         raise InputError(
             "identifiability is asked of a chain, such as Family(3)[4], a Model or a Network"

@@ -188,7 +188,7 @@ def menu_for(
 def _refuse(structures: Sequence[Chain | Network]) -> None:
     """Raise InputError for structures without a menu in common."""
     if all(isinstance(s, Chain) for s in structures):
-        if len({(len(places_of(s)), s.sensor) for s in structures if isinstance(s, Chain)}) > 1:
+        if len({(len(places_of(s)), s.quantity) for s in structures if isinstance(s, Chain)}) > 1:
             raise InputError("the structures have different numbers of masses or sensor quantities")
         return
     networks = [of_chain(s) if isinstance(s, Chain) else s for s in structures]

@@ -13,7 +13,7 @@ from disting.experiments import Experiment, PlacedExperiment, Places, move, pars
 from disting.experiments.measured_network import structure_of
 from disting.files import Format, __version__
 from disting.general import AnyModel
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.presentation import plural, summary
 from disting.model.question import Domain
 from disting.renamed import renamed
@@ -77,7 +77,7 @@ def compare_everywhere(
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     places: Places = (),
     domain: Domain | str | None = None,
     query: Query | None = None,
@@ -138,7 +138,7 @@ def everywhere_file(
     also: Sequence[str | Experiment],
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     domain: Domain | str | None = None,
     query: Query | None = None,
     engine: Engine | None = None,

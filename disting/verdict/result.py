@@ -258,8 +258,8 @@ def open_note(reason: str) -> str:
 def _models(left: str, right: str, premises: tuple[Premise | None, Premise | None]) -> str:
     """Both names, with what they leave to be said once where it is the same.
 
-    >>> from disting.model.chain import Sensor
-    >>> a, b = Premise(True, Sensor.ACCELERATION), Premise(False, Sensor.POSITION)
+    >>> from disting.model.chain import Quantity
+    >>> a, b = Premise(True, Quantity.ACCELERATION), Premise(False, Quantity.POSITION)
     >>> _models("3:1", "3:4", (a, a)), _models("3:1", "star", (b, None))
     ('3:1 and 3:4, damped, acceleration,', '3:1 (undamped, position) and star')
     """

@@ -9,9 +9,9 @@ from disting.conditions.side import AnySide
 from disting.errors import InputError, of_type, short
 from disting.experiments.experiment import Experiment, MeasuredChain
 from disting.experiments.measured_network import MeasuredNetwork, structure_of
-from disting.general.any_model import as_model, of_network, renamed_chain
-from disting.general.matrix_model import AnyModel, MatrixModel, Model
-from disting.model.chain import Chain, Sensor, as_sensor
+from disting.general.any_model import as_model, of_network, of_state_space, renamed_chain
+from disting.general.matrix_model import AnyModel
+from disting.model.chain import Chain, Quantity, as_quantity
 from disting.model.names import name_of, names_of, read_together
 from disting.network import Network, network_of
 from disting.network.chains import of_chain
@@ -20,20 +20,18 @@ from disting.verdict.engine import Engine
 
 NAMED = "experiments are a list of Experiment, or of pairs of them, left and right"
 SIDES = 2
-STATE_SPACE = "state space"  # the name of a model that is given as matrices
 Named = Chain | AnyModel | Network | str
 Given = Named | tuple[object, ...]
 """A model to compare: a text is the name of a chain, or a network in a notation; a tuple holds the
 matrices (A, B, C) or (A, B, C, D) of a state space.
 """
-MATRICES = (3, 4)  # of a state space, without D and with it
 
 
 def models_of_names(
     left: Given,
     right: Given,
     damped: bool | None,
-    sensor: Sensor | str | None,
+    sensor: Quantity | str | None,
 ) -> tuple[Chain | AnyModel, Chain | AnyModel]:
     """Both models, names as the chains that they mean, texts as the networks; raises InputError."""
     wanted = (
@@ -42,36 +40,26 @@ def models_of_names(
     )
     for side in (left, right):
         of_type(side, Chain | str | AnyModel | Network | tuple, wanted)
-    beside = next((m.sensor for m in (left, right) if isinstance(m, Chain)), Sensor.ACCELERATION)
-    quantity = beside if sensor is None else as_sensor(sensor)
+    beside = next(
+        (m.quantity for m in (left, right) if isinstance(m, Chain)), Quantity.ACCELERATION
+    )
+    quantity = beside if sensor is None else as_quantity(sensor)
     read = [model_of(m, quantity) for m in (left, right)]
     names = [m for m in read if isinstance(m, Chain | str)]
-    chains = iter(read_together(names, damped=damped, sensor=sensor))
+    chains = iter(read_together(names, damped=damped, quantity=sensor))
     a, b = (next(chains) if isinstance(m, Chain | str) else m for m in read)
     return a, b
 
 
-def model_of(source: Given, quantity: Sensor) -> Chain | AnyModel | str:
+def model_of(source: Given, quantity: Quantity) -> Chain | AnyModel | str:
     """A network or a state space as its transfer functions; chains, models and names as they are;
     raises InputError.
     """
     if isinstance(source, tuple):
-        return _of_state_space(source)
+        return of_state_space(source)
     if isinstance(source, str) and notations_of(source):
         source = network_of(source, quantity=quantity)
     return of_network(source) if isinstance(source, Network) else source
-
-
-def _of_state_space(matrices: tuple[object, ...]) -> AnyModel:
-    """The model x' = A x + B u, y = C x + D u, entries as for `Model.from_state_space`."""
-    if len(matrices) not in MATRICES:
-        raise InputError(
-            f"a tuple is a state space, (A, B, C) or (A, B, C, D), not {len(matrices)} entries;"
-            " transfer functions are a Model.from_transfer_function(numerator, denominator)"
-        )
-    model = MatrixModel.from_state_space(*matrices, name=STATE_SPACE)
-    single = model.shape == (1, 1)
-    return Model.from_state_space(*matrices, name=STATE_SPACE) if single else model
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from disting.files import Format, __version__
 from disting.general import AnyModel, Model, as_chain
 from disting.general.model_entries import as_entry, read_entry
 from disting.general.naming import LARGEST_CHAIN, refuse_misnamed_models
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import CHANGES
 from disting.model.names import name_of
@@ -68,7 +68,7 @@ def verdict_file(
     right: Given,
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
     experiments: Places = (),
     domain: Domain | str | None = None,
     query: Query | None = None,
@@ -202,7 +202,7 @@ def read_experiment(data: Mapping[str, Any]) -> Experiment:
 def _plain_field(value: object) -> object:
     if isinstance(value, tuple):
         return [_plain_field(item) for item in value]
-    return str(value) if isinstance(value, Fraction | Sensor) else value
+    return str(value) if isinstance(value, Fraction | Quantity) else value
 
 
 def same_plain(stored: object, again: object) -> bool:
@@ -298,7 +298,8 @@ def _model(data: Mapping[str, Any]) -> Chain | AnyModel:
         raise InputError("whether a chain has dampers, lag or dead time is true or false")
     if type(rest["n_masses"]) is int and rest["n_masses"] > MOST_MASSES:
         raise InputError(f"a chain has {MOST_MASSES} masses at most")
-    chain, name = Chain(**rest | {"ground_dampers": tuple(rest["ground_dampers"])}), data["name"]
+    rest["ground_dampers"] = tuple(rest["ground_dampers"])
+    chain, name = Chain.from_written_fields(rest), data["name"]
     if type(name) is not str:
         raise InputError("the name of a model is a text")
     refuse_misnamed(name, naming_of(name, chain))

@@ -110,7 +110,7 @@ def test_written_responses_hold_no_formula_and_read_back(tmp_path, counts):
         response = FrequencyResponse(
             OMEGA,
             5 - 4j / OMEGA,
-            sensor="velocity",
+            quantity="velocity",
             input=signals[0],
             output=signals[1],
             origin=words[4],

@@ -15,7 +15,7 @@ import sympy
 from flint import fmpz_mpoly
 from hypothesis import given, settings, strategies as st
 
-from disting import Chain, Family, Model, Sensor, transfer_function
+from disting import Chain, Family, Model, Quantity, transfer_function
 from disting.algebra.certainty import residues
 from disting.algebra.symbols import coefficients
 from disting.behaviour.chain_model import ChainModel, quotient
@@ -58,7 +58,7 @@ def test_at_random_numbers(chain, seed):
     s = complex(draw.uniform(0.1, 1.0), draw.uniform(0.1, 1.0))
     matrix, force, sensor = motion(chain, values, s, 0j)
     expected = (
-        s**chain.sensor.order
+        s**chain.quantity.order
         * np.array(sensor)
         @ np.linalg.solve(np.array(matrix), np.array(force, dtype=complex))
     )
@@ -79,7 +79,7 @@ def test_at_random_numbers(chain, seed):
         *Family(2, damped=False),
         *Family(2, damped=True),
         *Family(3, damped=False),
-        Chain(2, ground_dampers=(1, 2), lag=True, sensor="velocity", damped=False),
+        Chain(2, ground_dampers=(1, 2), lag=True, quantity="velocity", damped=False),
     ],
     ids=str,
 )
@@ -91,7 +91,7 @@ def test_by_cramers_rule(chain):
         [[*row, -f] for row, f in zip(matrix, force, strict=True)] + [[*sensor, 0]]
     )
     expected = (
-        S**chain.sensor.order
+        S**chain.quantity.order
         * whole.det()
         / sympy.Matrix(matrix).det()
         / (1 + S * values.get("T1", 0))
@@ -387,14 +387,14 @@ def test_only_powers_of_s_cancel(chain):
     ("chain", "degrees"),
     [
         (Chain(1, damped=False), (0, 0)),
-        (Chain(1, sensor="velocity", damped=False), (0, 1)),
-        (Chain(1, sensor="position", damped=False), (0, 2)),
+        (Chain(1, quantity="velocity", damped=False), (0, 1)),
+        (Chain(1, quantity="position", damped=False), (0, 2)),
         (Chain(1, ground_dampers=(1,), damped=False), (1, 1)),
         (Chain(1, lag=True, damped=False), (0, 1)),
         (Chain(2, damped=False), (2, 2)),
         (Chain(2, meas_plus=2, damped=True), (1, 2)),
         (Chain(2, 1, 1, 2, 1, 2, damped=False), (2, 2)),
-        (Chain(2, 1, 1, 2, 1, 2, sensor="position", damped=False), (2, 4)),
+        (Chain(2, 1, 1, 2, 1, 2, quantity="position", damped=False), (2, 4)),
         (Chain(3, meas_plus=3, damped=True), (2, 4)),
         (Chain(3, meas_plus=3, damped=True, ground_dampers=(3,)), (3, 5)),
     ],
@@ -406,11 +406,11 @@ def test_degrees(chain, degrees):
 
 
 @pytest.mark.parametrize("n_masses", [1, 2, 3, 5])
-@pytest.mark.parametrize(("sensor", "shift"), [(Sensor.VELOCITY, 1), (Sensor.POSITION, 2)])
+@pytest.mark.parametrize(("sensor", "shift"), [(Quantity.VELOCITY, 1), (Quantity.POSITION, 2)])
 def test_other_sensors_shift_the_markov_parameters(n_masses, sensor, shift):
     """Section 5.2: "shifted by one (two)"."""
     chain = Chain(n_masses, meas_plus=n_masses, damped=True)
-    other = Chain(n_masses, meas_plus=n_masses, damped=True, sensor=sensor)
+    other = Chain(n_masses, meas_plus=n_masses, damped=True, quantity=sensor)
     long = seen_at(
         at_point(ChainModel(other.structure), point(chain), P), Representation.MARKOV, 10
     )
@@ -438,7 +438,7 @@ def test_with_a_gap_the_two_parts_add(free, grounded):
     at a point).
     """
     n = free + grounded
-    chain = Chain(n, grounded, grounded, n, 1, n, damped=True, sensor="position")
+    chain = Chain(n, grounded, grounded, n, 1, n, damped=True, quantity="position")
     q = quotient(chain.structure, point(chain), P)
     numbers = dict(zip(chain.parameters, point(chain), strict=True))
     s = 12345

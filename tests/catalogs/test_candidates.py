@@ -16,8 +16,8 @@ from disting import (
     Engine,
     Family,
     InputError,
+    Quantity,
     Relation,
-    Sensor,
     compare,
 )
 from disting.catalogs import candidates as stored
@@ -104,11 +104,11 @@ def test_a_matrix_with_all_relations_survives_its_file(tmp_path):
     assert again.decided_by(chains[0], chains[2]) == "exact"
 
 
-@pytest.mark.parametrize("sensor", Sensor)
+@pytest.mark.parametrize("sensor", Quantity)
 def test_the_fit_looks_up_and_does_not_compute(sensor):
     family = figure_1((2, 3), sensor)
     assert representatives(family, Untouched(), {}) == {c: c for c in family}
-    assert alternatives(replace(FIRST, sensor=sensor), family, Untouched(), {}) == ()
+    assert alternatives(replace(FIRST, quantity=sensor), family, Untouched(), {}) == ()
 
 
 def test_other_candidates_are_computed():
@@ -124,12 +124,12 @@ def test_pairs_that_are_not_there_are_refused():
     for pair in (
         (FIRST, FIRST),
         (FIRST, Chain(2, damped=False)),
-        (FIRST, Chain(3, damped=True, sensor="position")),
+        (FIRST, Chain(3, damped=True, quantity="position")),
     ):
         with pytest.raises(InputError, match="two of its models"):
             stored.shipped_matrix().relation(*pair)
     with pytest.raises(InputError, match="one sensor"):
-        stored.matrix([FIRST, Chain(2, sensor="velocity", damped=False)])
+        stored.matrix([FIRST, Chain(2, quantity="velocity", damped=False)])
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import pytest
 
-from disting import Certainty, Chain, Engine, Family, Query, Relation, Sensor, compare
+from disting import Certainty, Chain, Engine, Family, Quantity, Query, Relation, compare
 from disting.decide.same.evidence_check import Witness
 from disting.decide.same.exact import exact_finding
 from disting.evidence.decision import DeadTime
@@ -133,7 +133,7 @@ def test_the_sensor_quantity_changes_no_verdict(n, damped):
         ENGINE.decisions(
             [ENGINE.subject(str(i), c) for i, c in enumerate(Family(n, damped, sensor))], query
         )
-        for sensor in Sensor
+        for sensor in Quantity
     ]
     for i, j in combinations(range(SIZE[n]), 2):
         assert len({d.relation(i, j) for d in found}) == 1
@@ -148,8 +148,8 @@ def test_with_ground_dampers_another_condition_may_decide_but_the_same():
     query, rules = Query(inclusion=False), {}
     for left, right in combinations(chains, 2):
         found = [
-            compare(*(replace(c, sensor=s) for c in (left, right)), query=query, engine=ENGINE)
-            for s in Sensor
+            compare(*(replace(c, quantity=s) for c in (left, right)), query=query, engine=ENGINE)
+            for s in Quantity
         ]
         assert {v.relation for v in found} == {APART}
         rules[left.ground_dampers, right.ground_dampers] = [v.decided_by for v in found]

@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 
 from disting.behaviour.sample import Representation
 from disting.conditions.rule import DEGREES, INVARIANTS
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.family import Family
 from disting.verdict.engine import Engine
 from disting.verdict.result import Query, Relation, Verdict, View
@@ -33,7 +33,7 @@ class SensorEffect:
     coefficients, free ones, rank.
     """
 
-    sensor: Sensor
+    sensor: Quantity
     numerator_degree: int
     denominator_degree: int
     zeros: tuple[str, ...]
@@ -49,7 +49,7 @@ def sensor_effects(chain: Chain, engine: Engine | None = None) -> tuple[SensorEf
     [(2, 4, 3, 3), (2, 3, 3, 3), (2, 2, 3, 3)]
     """
     engine = engine or Engine()
-    return tuple(_effect(engine, replace(chain, sensor=sensor)) for sensor in Sensor)
+    return tuple(_effect(engine, replace(chain, quantity=sensor)) for sensor in Quantity)
 
 
 def sensor_sentence(chain: Chain, engine: Engine | None = None) -> str:
@@ -126,7 +126,7 @@ def _effect(engine: Engine, chain: Chain) -> SensorEffect:
     )
     numerator, denominator = profile.degrees
     return SensorEffect(
-        chain.sensor, numerator, denominator, zeros, len(profile.form), profile.rank
+        chain.quantity, numerator, denominator, zeros, len(profile.form), profile.rank
     )
 
 

@@ -218,7 +218,7 @@ def left(tmp_path_factory):
     """
     path = tmp_path_factory.mktemp("machine") / "left.json"
     words = machine_fit(measured_machine(path.with_name("first.csv"), Setup(), 0))
-    found = select(read(words[1], sensor="acceleration"), [Chain(3, damped=True)])
+    found = select(read(words[1], quantity="acceleration"), [Chain(3, damped=True)])
     plain = selection_to_dict(replace(found, command=shlex.join(["disting", *map(str, words)])))
     path.write_text(json.dumps(plain), encoding="utf-8")
     return path

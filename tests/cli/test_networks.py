@@ -91,7 +91,7 @@ def test_networks_of_a_file_are_named_by_file_and_name(tmp_path):
 @pytest.mark.full
 def test_a_tree_is_simulated_with_friction():
     done = called("simulate", TREE, "--set", VALUES, "--samples", "500", "--friction", "3=0.01")
-    assert done.returncode == 0 and "# sensor: acceleration" in done.stdout
+    assert done.returncode == 0 and "# quantity: acceleration" in done.stdout
     other = called("simulate", TREE, "--set", VALUES, "--samples", "500")
     assert other.stdout != done.stdout
 

@@ -4,7 +4,7 @@ positive parameters.
 
 import pytest
 
-from disting import Chain, Query, Relation, Sensor, View, compare
+from disting import Chain, Quantity, Query, Relation, View, compare
 
 VIEWS = [View.EXACT, View.REAL, View.POSITIVE]
 
@@ -29,7 +29,7 @@ def test_a_lag_and_a_damper_to_the_ground():
     """
     lagging, braked = (
         Chain(1, lag=True, damped=False),
-        Chain(1, ground_dampers=(1,), sensor=Sensor.VELOCITY, damped=False),
+        Chain(1, ground_dampers=(1,), quantity=Quantity.VELOCITY, damped=False),
     )
     for pair in ((lagging, braked), (braked, lagging)):
         assert compare(*pair, query=Query(View.EXACT)).relation is Relation.INDISTINGUISHABLE

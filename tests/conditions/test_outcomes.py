@@ -385,7 +385,7 @@ def test_condition_8_fails_where_a_damper_adds_a_determinable_parameter():
         (ground(1), ground(2)),  # equally many elements
         (ground(1), ground(2, chain=Chain(3, damped=True))),  # no ground damper at mass 1
         (Chain(2, damped=False), Chain(3, meas_plus=3, damped=False)),  # other ports
-        (ground(1), ground(1, 2, chain=Chain(2, damped=True, sensor="velocity"))),
+        (ground(1), ground(1, 2, chain=Chain(2, damped=True, quantity="velocity"))),
         (ground(1), ground(1, 2, chain=Chain(2, damped=True, dead_time=True))),
     ],
 )
@@ -420,7 +420,7 @@ def test_condition_9_fails_where_the_third_model_has_more_to_determine():
     ("left", "right"),
     [
         (Family(3, damped=False)[1], Family(3, damped=False)[2]),  # other sensor place
-        (Family(3, damped=False)[1], replace(Family(3, damped=False)[1], sensor="position")),
+        (Family(3, damped=False)[1], replace(Family(3, damped=False)[1], quantity="position")),
         (ground(1), replace(ground(2), dead_time=True)),
         (ground(1), ground(1, 2)),  # a submodel: condition 8
         (ground(1), ground(1)),

@@ -12,7 +12,7 @@ from disting.equivalence import Origin, Signs, equivalents, explicit_map
 from disting.equivalence.inputs import point_of
 from disting.errors import InputError
 from disting.fibres.synthesis.task import Status
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.family import Family
 from tests.equivalence.mechanics import agree
 
@@ -107,11 +107,11 @@ def test_complex_members():
 
 
 def test_text_follows_the_chain():
-    chain = Chain(3, damped=True, sensor=Sensor.VELOCITY)
+    chain = Chain(3, damped=True, quantity=Quantity.VELOCITY)
     (listing,) = equivalents(chain, DAMPED, "3:11").listings
-    assert (listing.chain.damped, listing.chain.sensor, len(listing.members)) == (
+    assert (listing.chain.damped, listing.chain.quantity, len(listing.members)) == (
         True,
-        Sensor.VELOCITY,
+        Quantity.VELOCITY,
         1,
     )
 
@@ -201,7 +201,7 @@ def test_sensors_have_to_agree():
         equivalents(
             Chain(2, damped=False),
             {"m1": 1, "m2": 1, "k12": 1},
-            Chain(2, sensor=Sensor.VELOCITY, damped=False),
+            Chain(2, quantity=Quantity.VELOCITY, damped=False),
         )
 
 

@@ -47,7 +47,7 @@ def transfer(chain, values, *, force=None, sensor=None, **changes):
             if i in moving and j in moving:
                 total += x * y * adjugate[moving.index(i), moving.index(j)]
     lag = 1 + values["T1"] * S if chain.lag else 1
-    num, den = total * S**chain.sensor.order, matrix.det(method="berkowitz") * lag
+    num, den = total * S**chain.quantity.order, matrix.det(method="berkowitz") * lag
     return num.expand() if total != 0 else 0, den.expand()
 
 
@@ -95,12 +95,12 @@ def responses(chain, values, at, **experiment):
             for e in (act, meas)]  # fmt: skip
     inverse = matrix.subs(S, at).inv()
     y, x = (inverse * Matrix(e) for e in ends)
-    factor = Rational(at) ** chain.sensor.order / (1 + values.get("T1", 0) * at)
+    factor = Rational(at) ** chain.quantity.order / (1 + values.get("T1", 0) * at)
     plain = sum(a * b for a, b in zip(ends[1], y, strict=True))
     slopes = []
     for name in chain.parameters:
         if name == "T1":
-            slopes.append(-at * factor**2 / Rational(at) ** chain.sensor.order * plain)
+            slopes.append(-at * factor**2 / Rational(at) ** chain.quantity.order * plain)
             continue
         unit = {n: int(n == name) for n in values}
         slope = stiffness(chain, unit, locked=changes.get("locked", ()))[0].subs(S, at)

@@ -157,12 +157,12 @@ CASES = [
     (Chain(3, damped=False), {"brakes": {1: 2, 3: "2/7"}, "sensor": (3, 0)}),
     (A[9], {"brakes": {2: 3}, "inertias": {2: "1/5"}, "springs": {2: 7}, "locked": (1,)}),
     (A[1], {"force": (1, 3), "sensor": (2, 3), "brakes": {3: 1}}),  # terms of both signs
-    (Chain(2, damped=True, sensor="position"), {"brakes": {1: 1}, "inertias": {1: 1}}),
+    (Chain(2, damped=True, quantity="position"), {"brakes": {1: 1}, "inertias": {1: 1}}),
     (A[11], {"sensor": (1, 0)}),  # only the grounded part is seen
     (A[9], {"locked": (2,), "sensor": (3, 0), "force": (3, 0)}),
     (Chain(3, 1, 1, 2, 1, 3, ground_dampers=(2,), lag=True, damped=False), {"sensor": (3, 1)}),
     (Chain(4, 0, 0, 2, 0, 3, damped=True, ground_dampers=(1,)), {"locked": (1, 4)}),
-    (Chain(3, damped=True, sensor="velocity"), {"sensor": (2, 0)}),
+    (Chain(3, damped=True, quantity="velocity"), {"sensor": (2, 0)}),
 ]
 
 

@@ -111,7 +111,7 @@ def test_a_single_experiment_has_the_profile_of_the_chain(chain):
 @few
 @given(chains(2, 4), st.data())
 def test_force_and_sensor_can_be_exchanged(chain, data):
-    chain = replace(chain, sensor="position")
+    chain = replace(chain, quantity="position")
     places = st.tuples(st.integers(1, chain.n_masses), st.integers(0, chain.n_masses))
     force, sensor = (data.draw(places.filter(lambda p: p[0] != p[1])) for _ in range(2))
     there, back = Experiment(force=force, sensor=sensor), Experiment(force=sensor, sensor=force)
@@ -123,10 +123,10 @@ def test_force_and_sensor_can_be_exchanged(chain, data):
 def test_a_locked_mass_cuts_the_chain(n, damped, data):
     """Mass 1 of a free row locked leaves a row that hangs on the ground by its first joint."""
     force, sensor = (data.draw(st.integers(2, n)) for _ in range(2))
-    chain = Chain(n, damped=damped, sensor="position")
+    chain = Chain(n, damped=damped, quantity="position")
     locked = MeasuredChain(chain, (Experiment(force=force, sensor=sensor, locked=1),))
     found = profile(MachineModel(locked), Representation.TF, 0, Settings())
-    hung = Chain(n, n - 1, n - 1, n, n - 1, n, damped=damped, sensor="position")
+    hung = Chain(n, n - 1, n - 1, n, n - 1, n, damped=damped, quantity="position")
     ports = Experiment(force=force - 1, sensor=sensor - 1)
     plain = profile(MachineModel(MeasuredChain(hung, (ports,))), Representation.TF, 0, Settings())
     assert (found.degrees, found.form, found.rank) == (plain.degrees, plain.form, plain.rank)

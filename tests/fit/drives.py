@@ -38,7 +38,7 @@ def response(chain, values, omega=OMEGA, noise=0.0, seed=0, sign=1):
         np.array([values[n] for n in chain.parameters])
     )
     error = (source.normal(size=omega.size) + 1j * source.normal(size=omega.size)) / np.sqrt(2)
-    return FrequencyResponse(omega, exact * (1 + noise * error), sensor=chain.sensor)
+    return FrequencyResponse(omega, exact * (1 + noise * error), quantity=chain.quantity)
 
 
 def dense_response(chain, values, s):
@@ -60,16 +60,23 @@ def dense_response(chain, values, s):
     shown[chain.meas_minus] -= 1.0
     moved = np.linalg.solve(whole[1:, 1:], force[1:])
     lag = 1 + s * values["T1"] if chain.lag else 1.0
-    return s**chain.sensor.order * (shown[1:] @ moved) / lag * np.exp(-s * values.get("Td", 0.0))
+    return s**chain.quantity.order * (shown[1:] @ moved) / lag * np.exp(-s * values.get("Td", 0.0))
 
 
 CHAINS = [
     Chain(1, damped=True, ground_dampers=(1,)),
     Chain(2, damped=True, dead_time=True),
     Chain(3, damped=True, ground_dampers=(2,), lag=True, dead_time=True),
-    Chain(3, meas_plus=3, sensor="velocity", ground_dampers=(1, 3), damped=False),
+    Chain(3, meas_plus=3, quantity="velocity", ground_dampers=(1, 3), damped=False),
     Chain(
-        3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2, damped=True, sensor="position"
+        3,
+        gap=1,
+        act_minus=1,
+        act_plus=3,
+        meas_minus=1,
+        meas_plus=2,
+        damped=True,
+        quantity="position",
     ),
     Chain(4, gap=2, act_minus=1, act_plus=3, meas_minus=2, meas_plus=4, damped=True, lag=True),
 ]

@@ -104,7 +104,7 @@ def responses(tests, periods=4, noise=0.002, seed=0):
     u, v = np.stack([u, v]) + size * source.normal(size=(2, *u.shape))
     signals = {"input": Signal("torque", "Nm"), "output": Signal("speed", "rad/s")}
     records = [
-        replace(TimeSeries(each, speed, RATE, sensor="velocity"), **signals)
+        replace(TimeSeries(each, speed, RATE, quantity="velocity"), **signals)
         for each, speed in zip(u, v, strict=True)
     ]
     return [record.response(period=SAMPLES, transient=0) for record in records]

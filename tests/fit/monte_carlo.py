@@ -66,7 +66,7 @@ def drive(n_masses: int, seed: int, kind: str = "white") -> Drive:
     dampers = tuple(i for i in free if source.random() < 0.5)
     chain = Chain(
         n_masses,
-        sensor="velocity",
+        quantity="velocity",
         damped=True,
         ground_dampers=dampers,
         lag=bool(source.random() < 0.4),
@@ -100,7 +100,7 @@ def recorded(machine: Drive, repeats: int, again: int = 0) -> TimeSeries:
         corner = 3.0 * (100 / 3) ** np.random.default_rng([machine.seed, 7]).random()
         noisy = replace(noisy, noise_slope=1.0 + machine.seed % 2, noise_corner=corner)
     if machine.kind == "quantised":  # as much as the other kinds at 100 Hz
-        seen = replace(machine.chain, sensor="position")
+        seen = replace(machine.chain, quantity="position")
         noisy = replace(noisy, output_noise=0.0, quantum=np.sqrt(12) * size / (2 * np.pi * 100))
         return simulate(seen, machine.values, excitation, noisy)
     return simulate(machine.chain, machine.values, excitation, noisy)
@@ -140,7 +140,7 @@ def by_hand(machine: Drive, repeats: int) -> tuple[np.ndarray, np.ndarray]:
     )
     against = u if machine.kind == "random" else np.ones_like(u)
     omega = 2 * np.pi * lines * BENCH.sampling_rate / n
-    steps = 2 - series.sensor.order
+    steps = 2 - series.quantity.order
     quotient = (y * against.conj()).sum(axis=0) / (u * against.conj()).sum(axis=0)
     return omega, (1j * omega) ** steps * quotient
 
@@ -159,7 +159,7 @@ def true_scatter(machine: Drive, omega: np.ndarray, repeats: int) -> np.ndarray:
 
 def truth(machine: Drive) -> Chain:
     """The structure as it is offered to a fit."""
-    return replace(machine.chain, sensor="acceleration")
+    return replace(machine.chain, quantity="acceleration")
 
 
 def offered(machine: Drive) -> list[Chain]:

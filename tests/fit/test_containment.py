@@ -72,7 +72,7 @@ def test_all_pairs_of_the_candidates_are_those_that_steps_reach():
         (Chain(3, meas_plus=3), Chain(2), False),  # the sensor stays behind a spring
         (Chain(3, meas_plus=3), Chain(2, meas_plus=2), True),
         (Chain(2), Chain(2), False),
-        (Chain(3), Chain(2, sensor="velocity"), False),
+        (Chain(3), Chain(2, quantity="velocity"), False),
         # numbered from the other end: the force at the last mass
         (Chain(3, act_plus=3, meas_plus=3, ground_dampers=(3,)), Chain(2, ground_dampers=(1,)), True),
     ],

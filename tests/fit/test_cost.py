@@ -62,7 +62,7 @@ def test_weights_of_the_paper_count_20_db_as_180_degrees():
 def test_case_3_does_not_see_the_sensor_quantity(quantity):
     chain = Chain(3, damped=True, ground_dampers=(2,), dead_time=True)
     p, plant, measured = both(chain, 8)
-    other = Chain(3, damped=True, ground_dampers=(2,), dead_time=True, sensor=quantity)
+    other = Chain(3, damped=True, ground_dampers=(2,), dead_time=True, quantity=quantity)
     there = Cost(measured.to_quantity(quantity)).of(Plant(other.structure, OMEGA), p)
     here = Cost(measured).of(plant, p)
     np.testing.assert_allclose(here[0], there[0], atol=1e-12)

@@ -36,7 +36,7 @@ IDENTIFIABLE = [
     Chain(2, damped=True, ground_dampers=(2,), lag=True),
     Chain(3, damped=True, dead_time=True),
     Chain(2, gap=1, act_minus=1, act_plus=2, meas_minus=1, meas_plus=2, damped=True),
-    Chain(3, act_plus=2, meas_plus=2, damped=True, ground_dampers=(1,), sensor="velocity"),
+    Chain(3, act_plus=2, meas_plus=2, damped=True, ground_dampers=(1,), quantity="velocity"),
     Chain(3, meas_plus=3, damped=True, dead_time=True),
     Chain(3, gap=1, act_minus=1, act_plus=3, meas_minus=1, meas_plus=2, damped=True),
 ]

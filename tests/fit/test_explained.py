@@ -27,7 +27,7 @@ from disting.fit.search.data import WhitenedCost
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.measurement.tabular import ASSUMED_LINEAR
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
 from disting.simulation import Bench, Friction, simulate
@@ -39,11 +39,11 @@ DRIVE = Chain(2, damped=True, ground_dampers=(2,))
 VALUES = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "b2": 20.0}
 
 
-def noisy(exact, sensor=Sensor.ACCELERATION, size=0.01, seed=1):
+def noisy(exact, sensor=Quantity.ACCELERATION, size=0.01, seed=1):
     """A measured response with 1 % noise."""
     source = np.random.default_rng(seed)
     error = (source.normal(size=OMEGA.size) + 1j * source.normal(size=OMEGA.size)) / np.sqrt(2)
-    return FrequencyResponse(OMEGA, exact * (1 + size * error), sensor=sensor)
+    return FrequencyResponse(OMEGA, exact * (1 + size * error), quantity=sensor)
 
 
 def beam(gains, ratio=0.01):
@@ -65,17 +65,17 @@ def closed(gain):
 
 EXACT = response(DRIVE, VALUES).G
 WRONG = {
-    "a free beam": (noisy(beam([1.5] * 8)), Sensor.ACCELERATION),
-    "modes of mixed sign": (noisy(beam([1.0, -0.7, 0.5])), Sensor.ACCELERATION),
-    "noise": (noisy(np.ones(OMEGA.size), size=30.0), Sensor.ACCELERATION),
-    "a reversed sensor": (noisy(-EXACT), Sensor.ACCELERATION),
-    "acceleration read as position": (noisy(EXACT), Sensor.POSITION),
-    "a closed velocity loop": (noisy(closed(60.0)), Sensor.ACCELERATION),
+    "a free beam": (noisy(beam([1.5] * 8)), Quantity.ACCELERATION),
+    "modes of mixed sign": (noisy(beam([1.0, -0.7, 0.5])), Quantity.ACCELERATION),
+    "noise": (noisy(np.ones(OMEGA.size), size=30.0), Quantity.ACCELERATION),
+    "a reversed sensor": (noisy(-EXACT), Quantity.ACCELERATION),
+    "acceleration read as position": (noisy(EXACT), Quantity.POSITION),
+    "a closed velocity loop": (noisy(closed(60.0)), Quantity.ACCELERATION),
     "a sensor on the load": (
         noisy(response(Chain(2, meas_plus=2, damped=True), VALUES).G),
-        Sensor.ACCELERATION,
+        Quantity.ACCELERATION,
     ),
-    "two machines at one input": (noisy(EXACT - 1.8), Sensor.ACCELERATION),
+    "two machines at one input": (noisy(EXACT - 1.8), Quantity.ACCELERATION),
 }
 ONE = Chain(1, damped=True, ground_dampers=(1,))
 HELD = np.sinc(OMEGA / OMEGA[-1] / 2)
@@ -100,7 +100,7 @@ def told(data, found):
 @pytest.mark.parametrize("case", WRONG)
 def test_what_is_no_such_chain_is_said_first(case):
     data, sensor = WRONG[case]
-    told(data, select(replace(data, sensor=sensor), figure_1((1, 2), sensor)))
+    told(data, select(replace(data, quantity=sensor), figure_1((1, 2), sensor)))
 
 
 @pytest.mark.slow
@@ -155,7 +155,7 @@ def with_friction():
     """A record of a drive with dry friction at the motor."""
     values = {"m1": 0.0045, "m2": 0.005, "k12": 550.0, "d12": 0.08}
     stuck = Bench(periods=4, friction={1: Friction(0.1, 0.02, 0.05)}, seed=3)
-    series = simulate(Chain(2, damped=True, sensor="velocity"), values, bench=stuck)
+    series = simulate(Chain(2, damped=True, quantity="velocity"), values, bench=stuck)
     return series.response("acceleration", period=2500, transient=1)
 
 

@@ -21,7 +21,7 @@ from disting.model.question import Settings
 from disting.statistics.practical import covariance
 from tests.fit.drives import response
 
-DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")
+DRIVE = Chain(2, damped=True, ground_dampers=(2,), quantity="acceleration")
 VALUES = {"m1": 0.01, "m2": 0.02, "k12": 900.0, "d12": 0.12, "b2": 0.2}
 OMEGA = 2 * np.pi * np.geomspace(5.0, 200.0, 60)
 BETWEEN = 2 * np.pi * np.geomspace(4.0, 250.0, 37)
@@ -83,7 +83,7 @@ def test_the_response_is_sure_where_the_parameters_are_not():
     """Two masses with the sensor on the second one: no data determine all parameters, any the
     response.
     """
-    chain = Chain(2, meas_plus=2, damped=True, sensor="acceleration")
+    chain = Chain(2, meas_plus=2, damped=True, quantity="acceleration")
     found = select(response(chain, {n: VALUES[n] for n in chain.parameters}, OMEGA, NOISE), [chain])
     sure = confidence(found.described, found.task, OMEGA)
     assert found.described.practical.unidentifiable
@@ -101,8 +101,8 @@ def test_fit_percent_of_a_constant_model():
     """1/m = 2: 0 for data of mean 2; 1 - sqrt(2) for 2 and 3 in turn, of mean 2.5; nothing for
     constant data.
     """
-    flat = FrequencyResponse(OMEGA, np.full(60, 2.0 + 0j), sensor="acceleration")
-    found = select(flat, [Chain(1, sensor="acceleration", damped=False)], fixed={"m1": 0.5})
+    flat = FrequencyResponse(OMEGA, np.full(60, 2.0 + 0j), quantity="acceleration")
+    found = select(flat, [Chain(1, quantity="acceleration", damped=False)], fixed={"m1": 0.5})
     first = np.arange(60) % 2 == 0
     values = [np.where(first, 1.0, 3.0), np.where(first, 2.0, 3.0), np.full(60, 2.0)]
     none, worse, constant = (

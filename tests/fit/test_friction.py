@@ -26,11 +26,11 @@ from tests.fit.friction_drives import TRUTH, Machine, responses, run_of
 
 pytestmark = pytest.mark.full
 
-VELOCITY = Chain(1, damped=False, sensor="velocity")
+VELOCITY = Chain(1, damped=False, quantity="velocity")
 CANDIDATES = [
     VELOCITY,
     replace(VELOCITY, ground_dampers=(1,)),
-    *(Chain(2, damped=True, ground_dampers=b, sensor="velocity") for b in ((), (1,), (2,))),
+    *(Chain(2, damped=True, ground_dampers=b, quantity="velocity") for b in ((), (1,), (2,))),
 ]
 TABLE = [
     *(Machine(masses, coulomb=size) for masses in (1, 2) for size in (0.02, 0.1, 0.4)),

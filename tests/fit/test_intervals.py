@@ -192,8 +192,8 @@ def test_what_has_gone_to_zero_may_come_back_where_others_are_held():
 def test_an_interval_holds_the_value_where_parameters_run_away_together():
     """A speed read as an acceleration: m1 goes to zero as T1 goes to infinity."""
     chain = Chain(1, damped=True, ground_dampers=(1,), lag=True)
-    speed = measured(Chain(1, sensor="velocity"), {"m1": 0.01}, 0.01, 3)
-    found = select(replace(speed, sensor="acceleration"), [chain])
+    speed = measured(Chain(1, quantity="velocity"), {"m1": 0.01}, 0.01, 3)
+    found = select(replace(speed, quantity="acceleration"), [chain])
     (member,) = found.members
     values = member.candidate.estimate.parameters
     assert values["T1"] > 100 and set(member.intervals) == set(values)

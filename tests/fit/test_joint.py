@@ -27,7 +27,7 @@ from disting.fit.search.joint import FurtherResponse, JointCost
 from disting.fit.search.setup import Setup, measured_chain
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.statistics.covariance import expected_deviation
 from disting.statistics.practical import covariance
 from disting.store import Store
@@ -85,11 +85,11 @@ def dense(chain, values, setup, quantity, s):
 
 def stack(chain, setups, omega=OMEGA[::13]):
     """A cost with some response of each setup, of different quantities and lines."""
-    quantities = [Sensor.ACCELERATION, Sensor.VELOCITY, Sensor.POSITION]
+    quantities = [Quantity.ACCELERATION, Quantity.VELOCITY, Quantity.POSITION]
     parts = [
         Cost(
             FrequencyResponse(
-                omega[k % 2 :] * 1.0, np.ones(len(omega) - k % 2), sensor=quantities[k % 3]
+                omega[k % 2 :] * 1.0, np.ones(len(omega) - k % 2), quantity=quantities[k % 3]
             )
         )
         for k in range(len(setups))
@@ -115,7 +115,7 @@ def test_the_stacked_response_is_that_of_the_matrix_equations(chain, seed):
     found = cost.by_line(cost.plant(chain.structure, 1).response(p))
     for part, setup, own in zip(cost.parts, setups, found, strict=True):
         measured = part.measured
-        exact = [dense(chain, values, setup, measured.sensor, 1j * w) for w in measured.omega]
+        exact = [dense(chain, values, setup, measured.quantity, 1j * w) for w in measured.omega]
         np.testing.assert_allclose(own, exact, rtol=1e-9)
 
 
@@ -207,7 +207,7 @@ def test_a_locked_mass_silences_what_it_carries_and_what_lies_behind_it(setup, s
     chain = Chain(3, damped=True)
     assert setup.is_silent(chain.structure) is silent
     values = truth(chain, 1)
-    size = abs(dense(chain, values, setup, Sensor.POSITION, 30j))
+    size = abs(dense(chain, values, setup, Quantity.POSITION, 30j))
     assert bool(size < 1e-12) is silent
 
 

@@ -131,7 +131,9 @@ def test_networks_that_contain_one_that_is_left_are_left(seed):
     )
     omega = np.logspace(0, 4, 60)
     noise = 0.02 * np.random.default_rng(seed).normal(size=(60, 2)) @ [1, 1j]
-    cell = FrequencyResponse(omega, (1 + 2 / (1 + 0.02j * omega)) * (1 + noise), sensor="position")
+    cell = FrequencyResponse(
+        omega, (1 + 2 / (1 + 0.02j * omega)) * (1 + noise), quantity="position"
+    )
     selection = fit_networks(cell, [network_of(text) for text in texts])
     assert selection.selected is not None
     assert [f.network.name for f in selection.left] == ["R0-p(R1,C1)"]

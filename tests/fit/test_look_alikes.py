@@ -27,7 +27,7 @@ from disting.fit.search.plant import Plant
 from disting.fit.select import select
 from disting.general.any_model import as_model
 from disting.measurement import read
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.names import chain_of_whole_name, is_whole_name, name_of
 from disting.network.chains import of_chain
 from disting.network.network import Element, Network, Port
@@ -142,7 +142,7 @@ def test_engine_confirms_the_theorem_of_the_free_base(masses, damped):
     base = masses + 1
     elements = (*of_chain(chain).elements, Element("mb", "m", (base,)))
     ports = (Port(1, base),)
-    free = Network(elements, ports, ports, chain.sensor.order)
+    free = Network(elements, ports, ports, chain.quantity.order)
     verdict = compare(as_model(chain), as_model(free), query=Query(View.POSITIVE, inclusion=False))
     assert verdict.relation is Relation.INDISTINGUISHABLE
 
@@ -213,7 +213,7 @@ def fitted(tmp_path, response, candidates, s=S):
     columns = np.c_[s.imag / (2 * np.pi), measured.real, measured.imag]
     head = "Frequency [Hz],Re [rad/s^2/Nm],Im [rad/s^2/Nm]"
     np.savetxt(file, columns, header=head, delimiter=",", comments="")
-    train = read(file, quantity=Sensor.ACCELERATION)
+    train = read(file, quantity=Quantity.ACCELERATION)
     selection = select(train, candidates)
     return "\n".join(fit_text(selection, train)), selection_to_dict(selection)
 
@@ -395,9 +395,9 @@ def test_the_other_values_of_a_base_with_friction_are_named():
 
 def test_a_base_with_friction_in_commands_and_files():
     assert name_of(BASE) == "3:6+d12" and is_whole_name("3:6+d12")
-    assert chain_of_whole_name("3:6+d12", True, BASE.sensor) == BASE
-    assert chain_of_whole_name("3:6+d23", True, BASE.sensor) is None
-    assert chain_of_whole_name("3:1+d12", True, BASE.sensor) is None
+    assert chain_of_whole_name("3:6+d12", True, BASE.quantity) == BASE
+    assert chain_of_whole_name("3:6+d23", True, BASE.quantity) is None
+    assert chain_of_whole_name("3:1+d12", True, BASE.quantity) is None
 
 
 @pytest.mark.parametrize(
@@ -427,7 +427,7 @@ def test_a_drive_with_bearing_friction_on_a_base_is_found(tmp_path):
     assert "d12 is the friction between them" in text
 
 
-TWO_ON_BASE = Chain(3, 1, 1, 2, 1, 2, Sensor.POSITION, damped=True)
+TWO_ON_BASE = Chain(3, 1, 1, 2, 1, 2, Quantity.POSITION, damped=True)
 HOUSED = {
     "m1": 4.0, "m2": 1.0, "m3": 0.6, "k01": 6e4, "k23": 3e4, "d01": 20.0, "d23": 4.0,
 }  # fmt: skip

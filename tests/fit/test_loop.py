@@ -9,10 +9,10 @@ import pytest
 from disting.errors import InputError
 from disting.export import state_space
 from disting.fit.results.loop import Controller, margins, read_controller
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from tests.fit.drives import truth
 
-ONE = Chain(1, damped=False, sensor=Sensor.VELOCITY)
+ONE = Chain(1, damped=False, quantity=Quantity.VELOCITY)
 
 
 def test_velocity_loop_around_one_mass_is_an_integrator():
@@ -24,7 +24,7 @@ def test_velocity_loop_around_one_mass_is_an_integrator():
 
 
 def test_dead_time_takes_phase_and_limits_the_gain():
-    chain = Chain(1, damped=False, sensor=Sensor.VELOCITY, dead_time=True)
+    chain = Chain(1, damped=False, quantity=Quantity.VELOCITY, dead_time=True)
     found = margins(chain, np.array([0.5, 0.02]), Controller(P=10.0))
     assert found.stable and found.phase == pytest.approx(90.0 - degrees(20.0 * 0.02), rel=1e-4)
     assert found.gain == pytest.approx(pi / 2 / (20.0 * 0.02), rel=1e-3)
@@ -48,7 +48,12 @@ def test_stability_is_that_of_the_closed_loop_poles_and_phase_that_of_python_con
         n = int(source.integers(2, 5))
         force, sensor = (int(i) for i in source.integers(1, n + 1, 2))
         chain = Chain(
-            n, act_plus=force, meas_plus=sensor, damped=True, lag=k % 3 == 0, sensor=Sensor.POSITION
+            n,
+            act_plus=force,
+            meas_plus=sensor,
+            damped=True,
+            lag=k % 3 == 0,
+            quantity=Quantity.POSITION,
         )
         values = truth(chain, k)
         p = np.array([values[name] for name in chain.parameters])
@@ -118,7 +123,7 @@ def test_bad_controllers_are_refused(text, words):
 
 
 def test_what_has_no_margins_says_so():
-    free = Chain(2, damped=False, sensor=Sensor.VELOCITY)
+    free = Chain(2, damped=False, quantity=Quantity.VELOCITY)
     with pytest.raises(InputError, match="damped"):
         margins(free, np.array([1.0, 1.0, 100.0]), Controller(P=1.0))
     with pytest.raises(InputError, match="filter"):

@@ -29,7 +29,7 @@ VALUES = {"m1": 5e-3, "m2": 4e-3, "k12": 800.0, "d12": 0.02, "b1": 0.05, "Td": 1
 
 def file_of(path, quantity, seed=1, header="f [Hz],Re,Im", damage=None):
     """A CSV file of a motor with friction and a load; `damage` changes its response."""
-    chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True, sensor=quantity)
+    chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True, quantity=quantity)
     measured = response(chain, VALUES, noise=0.01, seed=seed)
     G = measured.G.copy() if damage is None else damage(measured.G.copy())
     rows = zip(measured.frequency.tolist(), G.real.tolist(), G.imag.tolist(), strict=True)
@@ -39,7 +39,7 @@ def file_of(path, quantity, seed=1, header="f [Hz],Re,Im", damage=None):
 
 def fitted(path, masses=(1, 2), **options):
     measured = read(path)
-    return select(measured, candidates(masses, measured.sensor), **options)
+    return select(measured, candidates(masses, measured.quantity), **options)
 
 
 def candidates(masses, sensor):
@@ -103,9 +103,9 @@ def test_several_responses_and_another_cost_ask_for_it_too(tmp_path):
     """Of two sensors, and with the cost of the paper, the same question."""
     measured = read(file_of(tmp_path / "a.csv", "velocity"))
     at_load = Chain(2, 0, 0, 1, 0, 2, "velocity", True, (1,), dead_time=True)
-    load = replace(response(at_load, VALUES, noise=0.01, seed=5), sensor="acceleration")
+    load = replace(response(at_load, VALUES, noise=0.01, seed=5), quantity="acceleration")
     second = FurtherResponse(load, Setup(sensor="2"))
-    chosen = [c for c in candidates((2,), measured.sensor) if c.lag and c.dead_time]
+    chosen = [c for c in candidates((2,), measured.quantity) if c.lag and c.dead_time]
     both = select(measured, chosen, further=[second])
     assert both.explanation.explains and both.selected is None
     assert [r.quantity.value for r in both.quantities] == ["acceleration", "velocity"]
@@ -135,7 +135,7 @@ def test_the_quantity_of_an_axis_with_dry_friction_is_asked():
     said to be assumed.
     """
     data = read(measured_data("EMPS.mat"), input="vir", output="qm", reference="qg", segment=4096)
-    found = select(data, chosen_ports((1, 2), "1", "1", 0, data.sensor))
+    found = select(data, chosen_ports((1, 2), "1", "1", 0, data.quantity))
     assert found.explanation.explains
     assert [r.quantity.value for r in found.quantities] == ["position", "velocity"]
     assert found.selected is None
@@ -228,7 +228,7 @@ def test_a_file_that_is_not_understood_shows_its_rows(tmp_path):
 def record(path, quantity, header, seed=3):
     """Three periods of 1 s of a multisine from 5 to 200 Hz, and what the sensor shows of it."""
     lines = np.arange(5, 201)
-    chain = Chain(2, damped=True, ground_dampers=(1,), sensor=quantity)
+    chain = Chain(2, damped=True, ground_dampers=(1,), quantity=quantity)
     exact = response(chain, VALUES, omega=2 * np.pi * lines)
     source, spectrum = np.random.default_rng(seed), np.zeros(501, dtype=complex)
     spectrum[lines] = np.exp(2j * np.pi * source.random(len(lines)))
@@ -248,7 +248,7 @@ def test_a_recorded_speed_that_is_taken_as_a_position_is_suspected(tmp_path, mas
     path = record(tmp_path / "a.csv", "velocity", "t [s],u,y")
     measured = read(path, input="u", output="y", period=1000, to="acceleration")
     assert read_in_words(measured).endswith("sensor: acceleration, from a position (assumed)")
-    tried = candidates(masses, measured.sensor)
+    tried = candidates(masses, measured.quantity)
     found = select(measured, [c for c in tried if lag or not c.lag])
     assert [r.quantity.value for r in found.quantities][:2] == ["position", "velocity"]
     assert any("give --quantity" in said and "velocity" in said for said in suspicions(found))

@@ -51,7 +51,7 @@ def drawn(
         values[name] = float(value(name))
     G = Plant(chain.structure, 2 * np.pi * f).response(np.array(list(values.values())))
     scatter = source.normal(size=len(f)) + 1j * source.normal(size=len(f))
-    return values, from_arrays(f, G * (1 + noise * scatter / np.sqrt(2)), sensor="acceleration")
+    return values, from_arrays(f, G * (1 + noise * scatter / np.sqrt(2)), quantity="acceleration")
 
 
 def is_missed(chain: Chain, seed: int) -> bool:
@@ -87,7 +87,7 @@ def test_a_reversed_sensor_and_a_dead_time_are_seen():
     chain = Chain(2, damped=False, dead_time=True)
     _, data = drawn(chain, seed=3)
     late = drawn(chain, seed=3)[0]["Td"]
-    turned = from_arrays(data.frequency, -data.G, sensor="acceleration")
+    turned = from_arrays(data.frequency, -data.G, quantity="acceleration")
     assert all(d == pytest.approx(late, rel=0.3) for *_, d in from_modes(chain, turned, -1))
 
 

@@ -21,7 +21,7 @@ CLEAN = 1 + 2 / (1 + 0.02j * OMEGA)  # R0 = 1, R1 = 2, C1 = 0.01
 def measured(clean, seed, noise=1e-2):
     draw = np.random.default_rng(seed)
     noisy = clean * (1 + noise * draw.normal(size=(len(OMEGA), 2)) @ [1, 1j])
-    return FrequencyResponse(OMEGA, noisy, sensor="position", is_impedance=True)
+    return FrequencyResponse(OMEGA, noisy, quantity="position", is_impedance=True)
 
 
 def test_intervals_hold_the_truth_as_often_as_they_say():

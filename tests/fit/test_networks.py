@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disting import InputError, Sensor
+from disting import InputError, Quantity
 from disting.fit.networks import _excluding, fit_networks
 from disting.fit.search.network_plant import NetworkPlant, NetworkPlants
 from disting.general.any_model import of_network
@@ -93,12 +93,12 @@ def lambdify(text, values):
 def test_two_sensors_are_fitted_together(tmp_path):
     omega, draw = np.logspace(-0.7, 1, 80), np.random.default_rng(3)
     texts = ["1=2=3; F1; S1 S3", "1=2, 1=3; F1; S1 S3", "1=2; F1; S1 S2"]
-    plant = NetworkPlants(network_of(texts[1], quantity=Sensor.POSITION), (omega, omega))
+    plant = NetworkPlants(network_of(texts[1], quantity=Quantity.POSITION), (omega, omega))
     values = {"d12": 0.2, "d13": 0.3, "k12": 3.0, "k13": 7.0, "m1": 1.0, "m2": 2.0, "m3": 0.5}
     assert plant.parameters == tuple(values)
     clean = np.split(plant.response(np.array(list(values.values()))), 2)
     noisy = [c * (1 + 2e-3 * draw.normal(size=(80, 2)) @ [1, 1j]) for c in clean]
-    data = [FrequencyResponse(omega, g, sensor=Sensor.POSITION) for g in noisy]
+    data = [FrequencyResponse(omega, g, quantity=Quantity.POSITION) for g in noisy]
     found = fit_networks(data, list(map(network_of, texts)))
     assert [f.network.name for f in found.left] == [texts[1]]
     assert found.left[0].values == pytest.approx(values, rel=0.02)
@@ -121,7 +121,7 @@ def test_two_sensors_are_fitted_together(tmp_path):
     ],
 )
 def test_responses_and_networks_that_do_not_fit_each_other(texts, count, said):
-    one = FrequencyResponse(np.logspace(0, 1, 20), np.ones(20) + 0j, sensor=Sensor.POSITION)
+    one = FrequencyResponse(np.logspace(0, 1, 20), np.ones(20) + 0j, quantity=Quantity.POSITION)
     with pytest.raises(InputError, match=said):
         fit_networks([one] * count, list(map(network_of, texts)))
 
@@ -155,7 +155,7 @@ def simulated(network: Network, draw: np.random.Generator, noise: float) -> Freq
     clean = plant.response(np.exp(draw.uniform(-1.1, 1.1, len(plant.parameters))))
     size = noise * np.abs(clean)
     noisy = clean + size * (draw.normal(size=(80, 2)) @ np.array([1, 1j]))
-    return FrequencyResponse(omega, noisy, sensor=list(Sensor)[network.order])
+    return FrequencyResponse(omega, noisy, quantity=list(Quantity)[network.order])
 
 
 def kept(name: str, count: int, seed: int) -> int:
@@ -189,7 +189,7 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
     assert plant.parameters == ("C1", "C2", "R0", "R1", "R2")
     clean = plant.response(np.array([1e-2, 1e-3, 1.0, 2.0, 3.0]))
     noisy = clean * (1 + 3e-3 * np.random.default_rng(1).normal(size=(60, 2)) @ [1, 1j])
-    data = FrequencyResponse(plant.omega, noisy, sensor="position")
+    data = FrequencyResponse(plant.omega, noisy, quantity="position")
     texts = ["R0-p(R1,C1)", "R0-p(R1-W1,C1)", truth.name, "R0-p(C1,R1-p(R2,C2))"]
     found = fit_networks(data, list(map(network_of, texts)))
     assert found.selected is not None and found.selected.network.name == truth.name
@@ -207,7 +207,7 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
 def test_a_network_that_fits_alike_in_another_place_excludes_none(left, excluded):
     """T is above 8, the cost lower by 0.6, 5 and 9."""
     omega = np.logspace(0, 4, 30)
-    data = FrequencyResponse(omega, np.full(30, 2 + 0j), np.full(30, 0.02), sensor="position")
+    data = FrequencyResponse(omega, np.full(30, 2 + 0j), np.full(30, 0.02), quantity="position")
     found = fit_networks(data, [network_of("R1")])
     rest = np.random.default_rng(4).normal(size=59)
     true, other = (
@@ -231,7 +231,7 @@ def test_an_exponent_is_found_and_a_capacitor_excluded():
     assert plant.parameters == ("P1", "R0", "R1", "n1")
     noise = 2e-3 * np.random.default_rng(5).normal(size=(60, 2)) @ [1, 1j]
     measured = plant.response(np.array([1e-4, 10.0, 50.0, 0.83])) * (1 + noise)
-    data = FrequencyResponse(plant.omega, measured, sensor="position")
+    data = FrequencyResponse(plant.omega, measured, quantity="position")
     found = fit_networks(data, list(map(network_of, texts)))
     assert [f.network.name for f in found.left] == [texts[1]]
     best = found.left[0]

@@ -8,7 +8,7 @@ from hypothesis import given, settings, strategies as st
 
 from disting.errors import InputError
 from disting.fit.search.plant import Plant
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from tests.fit.drives import CHAINS, OMEGA, dense_response, response, truth
 
 
@@ -83,7 +83,7 @@ def test_a_line_on_a_resonance_without_damping_is_no_division_by_zero():
     assert np.all(np.isfinite(gradient))
 
 
-@pytest.mark.parametrize("chain", [c for c in CHAINS if c.sensor is Sensor.ACCELERATION])
+@pytest.mark.parametrize("chain", [c for c in CHAINS if c.quantity is Quantity.ACCELERATION])
 def test_a_wrong_unit_of_frequency_makes_other_values_of_the_same_chain(chain):
     """Hz taken for rad/s: no fit can tell, so that a grid alone can make it suspicious."""
     c, values = 2 * np.pi, truth(chain, 3)

@@ -8,7 +8,7 @@ from disting.measurement import read
 from disting.measurement.assumptions import assumed_quantity
 
 OMEGA = 2 * np.pi * np.geomspace(1, 50, 40)
-DRIVE, VALUES = Chain(1, sensor="velocity", ground_dampers=(1,)), {"m1": 0.1, "b1": 2.0}
+DRIVE, VALUES = Chain(1, quantity="velocity", ground_dampers=(1,)), {"m1": 0.1, "b1": 2.0}
 
 
 def test_data_and_candidates_follow_the_stated_quantity(tmp_path):

@@ -287,7 +287,7 @@ def test_input_that_does_not_fit_together_is_refused():
     with pytest.raises(InputError, match="at least one candidate"):
         select(planted(1), [])
     with pytest.raises(InputError, match="the data shows acceleration, a candidate velocity"):
-        select(planted(1), [Chain(1, sensor="velocity", damped=False)])
+        select(planted(1), [Chain(1, quantity="velocity", damped=False)])
     with pytest.raises(InputError, match="training shows acceleration, test velocity"):
         select(planted(1), [Chain(1, damped=False)], test=planted(2).to_quantity("velocity"))
     with pytest.raises(InputError, match="choose other weights"):

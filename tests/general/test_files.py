@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings, strategies as st
 
-from disting import Chain, InputError, Model, ModelList, Sensor, read_models, write_models
+from disting import Chain, InputError, Model, ModelList, Quantity, read_models, write_models
 from disting.general.model_files import LARGEST, MOST_MODELS, models_of, models_text
 
 WHOLE = """{"title": "Leaks & drives", "s": "p", "models": [
@@ -44,7 +44,7 @@ def test_every_form_is_read_as_the_constructors_make_it(tmp_path):
     found = read_models(file(tmp_path, WHOLE))
     assert found.title == "Leaks & drives" and len(found) == 6
     leaks = Model.from_state_space([["-k12-k01", 0], ["k12", "-k02"]], [1, 0], [0, 1])
-    drive = Chain(2, damped=True, sensor=Sensor.VELOCITY, ground_dampers=(2,))
+    drive = Chain(2, damped=True, quantity=Quantity.VELOCITY, ground_dampers=(2,))
     by_hand = [
         leaks,
         Model.from_transfer_function("d + b/(s + a)"),

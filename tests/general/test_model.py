@@ -195,7 +195,7 @@ def test_models_are_values():
     [
         *Family(2, damped=True),
         Chain(2, ground_dampers=(1, 2), lag=True, damped=False),
-        Chain(3, sensor="position", damped=False),
+        Chain(3, quantity="position", damped=False),
     ],
 )
 def test_chains_become_models(chain):

@@ -23,7 +23,7 @@ from disting.measurement.response import FrequencyResponse
 def read_json(file, *, quantity="acceleration"):
     data = json.loads(file.content)
     G = np.array(data["re"]) + 1j * np.array(data["im"])
-    return FrequencyResponse(np.array(data["omega"]), G, sensor=quantity, origin=file.name)
+    return FrequencyResponse(np.array(data["omega"]), G, quantity=quantity, origin=file.name)
 """
 ROW = """FORMATS = (
     Format(
@@ -37,7 +37,7 @@ from disting import InputError
 from disting.measurement import read
 
 found = read("response.json", quantity="velocity")
-print(found.sensor, found.G[0], len(found))
+print(found.quantity, found.G[0], len(found))
 for options in ({"column": 2}, {"input": "u", "output": "y"}):
     try:
         read("response.json", **options)
@@ -108,7 +108,7 @@ def test_a_unit_is_a_row(tmp_path):
     lines += [f"{i},{9.80665 * i},{-9.80665 * i}" for i in range(1, 30)]
     (folder / "press.csv").write_text("\n".join(lines), encoding="utf-8")
     script = "from disting.measurement import read; from disting.measurement.scaling import in_si; "
-    script += "found = in_si(read('press.csv')); print(found.sensor, found.G[0].round(12))"
+    script += "found = in_si(read('press.csv')); print(found.quantity, found.G[0].round(12))"
     assert said(folder, "-c", script) == "acceleration (0.001-0.001j)\n"
 
 
@@ -204,11 +204,11 @@ for command in COMMANDS:
         except SystemExit as end:
             status = end.code or 0
     told[command] = status, out.getvalue() + error.getvalue()
-mass = from_arrays(range(1, 9), [1.0] * 8, sensor="ruck")
+mass = from_arrays(range(1, 9), [1.0] * 8, quantity="ruck")
 drive = network_of("1=2; F1; S2")
 doors = (
-    lambda: Chain(2, sensor="jerk"),
-    lambda: Family(2, sensor="jerk"),
+    lambda: Chain(2, quantity="jerk"),
+    lambda: Family(2, quantity="jerk"),
     lambda: network_of("1=2; F1; S2", quantity="jerk"),
     lambda: network_of("1=2; F1; S2; jerk"),
     lambda: network_of("machines-2:1", quantity="jerk"),
@@ -227,7 +227,7 @@ told["word"] = schema(Format.FIT)["$defs"]["quantity"]["enum"]
 print(json.dumps(told))
 """
 SHOWN = {
-    "simulate 2:1 --set m1=1,m2=2,k12=50,d12=1 --samples 256 --periods 2 --response jerk": "# sensor: jerk",
+    "simulate 2:1 --set m1=1,m2=2,k12=50,d12=1 --samples 256 --periods 2 --response jerk": "# quantity: jerk",
     "simulate --help": "{position,velocity,acceleration,jerk}",
     "fit --help-all": "{position,velocity,acceleration,jerk}",
 }

@@ -39,7 +39,7 @@ def similar_pairs(draw, max_masses=3):
     """Two chains of one size and kind, so that the first conditions seldom decide."""
     n = draw(st.integers(1, max_masses))
     left, right = draw(chains(n, n)), draw(chains(n, n))
-    return left, replace(right, sensor=left.sensor, lag=left.lag, damped=left.damped)
+    return left, replace(right, quantity=left.quantity, lag=left.lag, damped=left.damped)
 
 
 @st.composite

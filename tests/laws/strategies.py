@@ -4,7 +4,7 @@ lag, sensor.
 
 from hypothesis import strategies as st
 
-from disting import Chain, Sensor
+from disting import Chain, Quantity
 
 
 @st.composite
@@ -18,7 +18,7 @@ def chains(draw, min_masses=1, max_masses=4, dead_time=False):
         n,
         gap,
         *ports,
-        sensor=draw(st.sampled_from(Sensor)),
+        quantity=draw(st.sampled_from(Quantity)),
         damped=draw(st.booleans()),
         ground_dampers=tuple(sorted(draw(st.sets(st.integers(1, n))))),
         lag=draw(st.booleans()),

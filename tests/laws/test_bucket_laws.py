@@ -7,7 +7,7 @@ from itertools import combinations
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from disting import Chain, Engine, Family, Query, Sensor, Settings, View
+from disting import Chain, Engine, Family, Quantity, Query, Settings, View
 from disting.verdict.cascade import decide
 from disting.verdict.result import ALL_CONDITIONS
 from tests.laws.pairs import BY_CONDITIONS, ENGINE, family, subject
@@ -110,9 +110,9 @@ def test_the_order_of_the_models_does_not_matter():
         assert base.relation(i, j) == other.relation(places[i], places[j])
 
 
-@pytest.mark.parametrize("sensor", Sensor)
+@pytest.mark.parametrize("sensor", Quantity)
 def test_few_and_no_models(sensor):
     assert ENGINE.decisions([], Query()).counts() == {"": 0}
-    assert ENGINE.decisions([subject(Chain(1, sensor=sensor, damped=False))], Query()).counts() == {
-        "": 0
-    }
+    assert ENGINE.decisions(
+        [subject(Chain(1, quantity=sensor, damped=False))], Query()
+    ).counts() == {"": 0}

@@ -50,11 +50,11 @@ def sampled(values, omega, order, delay=0, lag=None, rate=RATE):
 @pytest.mark.parametrize("delay", [0, 2])
 def test_a_plant_behind_a_hold_is_the_exact_discretisation(shown, delay, order):
     """Up to a fifth of the sampling rate, an antiresonance between."""
-    chain = Chain(2, damped=True, ground_dampers=(1,), sensor=shown, dead_time=delay > 0)
+    chain = Chain(2, damped=True, ground_dampers=(1,), quantity=shown, dead_time=delay > 0)
     omega = 2 * np.pi * np.geomspace(2.0, 0.2 * RATE, 200)
     p = np.array([{**VALUES, "Td": delay / RATE}[n] for n in chain.parameters])
     plant = Plant(chain.structure, omega, observation=Observation(hold=Hold(1 / RATE, order)))
-    exact = sampled(VALUES, omega, order, delay) * (1j * omega) ** (chain.sensor.order - order)
+    exact = sampled(VALUES, omega, order, delay) * (1j * omega) ** (chain.quantity.order - order)
     assert np.max(np.abs(plant.response(p) / exact - 1)) < (2e-4, 5e-4)[order]
     bare = Plant(chain.structure, omega).response(p)
     assert np.max(np.abs(bare / exact - 1)) > 0.5
@@ -103,14 +103,14 @@ def recorded(order=1, delay=0, lag=None, noise=7e-4):
     if lag is None:
         exact = sampled(VALUES, OMEGA, order, delay)
     else:
-        chain = replace(DRIVE, lag=True, sensor=["position", "velocity"][order])
+        chain = replace(DRIVE, lag=True, quantity=["position", "velocity"][order])
         p = np.array([{**VALUES, "T1": lag}[n] for n in chain.parameters])
         exact = Plant(chain.structure, OMEGA).response(p)
     parts = np.random.default_rng(7).normal(size=(2, len(OMEGA)))
     response = exact * (1 + noise * (parts[0] + 1j * parts[1]))
     sensor = ["position", "velocity"][order]
     method = Method(1000, 10, rate=RATE, order=order)
-    return FrequencyResponse(OMEGA, response, sensor=sensor, method=method)
+    return FrequencyResponse(OMEGA, response, quantity=sensor, method=method)
 
 
 def near(data, chain, **values):
@@ -126,7 +126,7 @@ def near(data, chain, **values):
 @pytest.mark.parametrize(("delay", "dead_time"), [(0, 0.0), (1, 2.5e-4)])
 def test_a_hold_that_explains_the_actuator_is_found(order, delay, dead_time):
     """A dead time of T/2 and 3 T/2, which is none and T behind the hold."""
-    chain = replace(DRIVE, sensor=["position", "velocity"][order], **DEAD)
+    chain = replace(DRIVE, quantity=["position", "velocity"][order], **DEAD)
     data = recorded(order, delay)
     estimate, task = near(data, chain, Td=1e-4)
     assert estimate.parameters["Td"] == pytest.approx((delay + 0.5) / RATE, rel=0.02)
@@ -139,7 +139,7 @@ def test_a_hold_that_explains_the_actuator_is_found(order, delay, dead_time):
 
 
 def test_no_hold_is_found_for_a_lag_that_is_none():
-    chain = replace(DRIVE, sensor="velocity", lag=True)
+    chain = replace(DRIVE, quantity="velocity", lag=True)
     assert held(*near(recorded(lag=1.6e-3), chain, T1=1e-3)) is None
 
 
@@ -147,7 +147,7 @@ def test_the_third_line_suggests_the_hold():
     data = recorded(noise=7e-3)
     (line,) = (
         said
-        for said in first_lines(select(data, [replace(DRIVE, sensor="velocity", **DEAD)]))
+        for said in first_lines(select(data, [replace(DRIVE, quantity="velocity", **DEAD)]))
         if said.startswith("next: ")
     )
     assert "for the 0.00025 s between samples, give --hold record: so 2:1+b1 fits" in line
@@ -155,7 +155,7 @@ def test_the_third_line_suggests_the_hold():
 
 def test_hold_and_welch_are_seen_together():
     observation = Observation(segment=(0.5, 0), hold=Hold(1 / RATE))
-    chain = Chain(1, damped=True, ground_dampers=(1,), sensor="position")
+    chain = Chain(1, damped=True, ground_dampers=(1,), quantity="position")
     p, omega = np.array([2e-3, 0.1]), 2 * np.pi * np.arange(4.0, 300.0, 4.0)
     both = Plant(chain.structure, omega, observation=observation).response(p)
     window = Plant(chain.structure, omega, observation=Observation(segment=(0.5, 0))).response(p)

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings, strategies as st
 from disting.cli import main
 from disting.errors import InputError
 from disting.measurement import Signal, read, read_time_series
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from tests.measurement.bench_data import measured_data
 from tests.measurement.matlab_objects import file_of
 
@@ -121,7 +121,7 @@ def test_names_units_delays_and_covariances(tmp_path):
     )
     found = read(stored(tmp_path, objects), response="frf[2]", quantity="position", sign=-1)
     np.testing.assert_allclose(found.G, -G[1] * np.exp(-0.05j * HERTZ), rtol=1e-14)
-    assert np.array_equal(found.deviation, np.full(12, 5.0)) and found.sensor is Sensor.POSITION
+    assert np.array_equal(found.deviation, np.full(12, 5.0)) and found.quantity is Quantity.POSITION
     assert (found.input, found.output) == (Signal("torque", "Nm"), Signal("b", "rad"))
 
 

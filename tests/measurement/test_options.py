@@ -67,8 +67,8 @@ def test_the_old_name_of_quantity_is_accepted_with_a_warning(tmp_path):
         lambda **k: chosen_ports([1], "1", "1", **k),
     )
     for call in calls:
-        with pytest.warns(DeprecationWarning, match="the argument sensor is called quantity now"):
+        with pytest.warns(DeprecationWarning, match="the argument sensor is now called quantity"):
             old = call(sensor="velocity")
         assert old == call(quantity="velocity")
     with pytest.raises(InputError, match="give quantity alone"):
-        read(path, sensor="velocity", quantity="velocity")
+        read(path, quantity="velocity", sensor="velocity")

@@ -11,7 +11,7 @@ from disting.errors import InputError
 from disting.measurement import Signal, from_arrays, from_control, read, read_time_series
 from disting.measurement.matlab import variables
 from disting.measurement.source import source
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 FREQUENCY = np.arange(2.0, 14.0)
 G = np.exp(0.1j * FREQUENCY) * FREQUENCY
@@ -38,7 +38,7 @@ def test_arrays():
     assert (
         np.array_equal(found.G, -G)
         and np.array_equal(found.deviation, COHERENCE)
-        and found.sensor is Sensor.VELOCITY
+        and found.quantity is Quantity.VELOCITY
     )
     assert np.array_equal(from_arrays(FREQUENCY, G, frequency_unit="rad/s").omega, FREQUENCY)
     for wrong in ({"frequency_unit": "furlong"}, {"sign": 2}, {"coherence": "a"}):
@@ -113,10 +113,10 @@ def test_time_series_of_a_matlab_file(tmp_path):
         scipy.io.savemat(path, signals | rate)
         found = read_time_series(path, "u", "y", quantity="velocity")
         assert found.sampling_rate == pytest.approx(100) and np.array_equal(found.y, np.cos(TIME))
-        assert (found.input, found.output, found.sensor) == (
+        assert (found.input, found.output, found.quantity) == (
             Signal("u"),
             Signal("y"),
-            Sensor.VELOCITY,
+            Quantity.VELOCITY,
         )
     assert (
         found.notes == ()
@@ -193,7 +193,7 @@ def test_universal_files_of_pyuff(tmp_path):
     np.testing.assert_allclose(first.G, G, rtol=1e-6)  # the format keeps single precision
     np.testing.assert_allclose(first.coherence, COHERENCE, rtol=1e-6)
     np.testing.assert_allclose(first.frequency, FREQUENCY, rtol=1e-6)
-    assert (first.sensor, first.notes) == (Sensor.VELOCITY, ())
+    assert (first.quantity, first.notes) == (Quantity.VELOCITY, ())
     assert (first.output, first.input) == (Signal("node 3 +z", "m/s"), Signal("node 1 -z", "N"))
     assert second.coherence is None and "taken as acceleration" in second.notes[0]
     with pytest.raises(

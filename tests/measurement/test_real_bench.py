@@ -7,7 +7,7 @@ import pytest
 
 from disting.errors import InputError
 from disting.measurement import read, read_time_series, write_csv
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from tests.measurement.bench_data import measured_data
 
 PRINTED = 6e-9  # the derived files carry nine digits
@@ -25,7 +25,7 @@ def test_the_records_give_the_published_responses(experiment, lines, angle, sign
     still = read(record, **signals, to="acceleration")
     assert np.max(np.abs(still.G - found.G) / found.noise) < 1
     assert np.median(still.noise / found.noise) < 1
-    assert found.sensor == derived.sensor == Sensor.ACCELERATION and found.suspicions == ()
+    assert found.quantity == derived.quantity == Quantity.ACCELERATION and found.suspicions == ()
     assert len(found) == {"A": 240, "B": 60}[experiment] and (
         lines is None or np.allclose(found.frequency, lines)
     )
@@ -51,7 +51,11 @@ def test_the_load_angle_of_the_bench_is_seen_to_be_reversed():
 def test_an_object_that_cannot_be_read_does_not_hide_the_rest():
     path = measured_data("fditools_motorbench_A.mat")
     series = read_time_series(path, "iq_adx", "omega_may", quantity="velocity")
-    assert (len(series), series.sampling_rate, series.sensor) == (50000, 2500.0, Sensor.VELOCITY)
+    assert (len(series), series.sampling_rate, series.quantity) == (
+        50000,
+        2500.0,
+        Quantity.VELOCITY,
+    )
     with pytest.raises(InputError, match=r"ms .*no array of numbers"):
         read_time_series(path, "iq_adx", "ms")
     with pytest.raises(

@@ -11,7 +11,7 @@ from hypothesis import given, strategies as st
 
 from disting.errors import InputError
 from disting.measurement import FrequencyResponse, Signal, are_opposite
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 OMEGA = np.linspace(10.0, 200.0, 20)
 MASS = np.full(20, 4.0 + 0j)
@@ -38,7 +38,7 @@ def test_equality_is_that_of_numbers_sensor_and_signals():
         replace(response, omega=OMEGA + 1e-12),
         replace(response, deviation=MASS.real),
         replace(response, coherence=MASS.real / 4),
-        replace(response, sensor="velocity"),
+        replace(response, quantity="velocity"),
         replace(response, output=Signal("x")),
         "response",
     ]
@@ -86,26 +86,26 @@ def test_unsorted_frequencies_are_sorted_with_all_columns_and_said():
 
 def test_a_mass_seen_by_three_sensors():
     position = FrequencyResponse(
-        OMEGA, -1 / (0.25 * OMEGA**2), np.ones(20), sensor="position", output=Signal("x", "rad")
+        OMEGA, -1 / (0.25 * OMEGA**2), np.ones(20), quantity="position", output=Signal("x", "rad")
     )
     velocity, acceleration = (
         position.to_quantity("velocity"),
-        position.to_quantity(Sensor.ACCELERATION),
+        position.to_quantity(Quantity.ACCELERATION),
     )
     np.testing.assert_allclose(velocity.G, 1 / (0.25j * OMEGA), rtol=1e-15)
     np.testing.assert_allclose(acceleration.G, 4.0, rtol=1e-15)
     np.testing.assert_allclose(acceleration.deviation, OMEGA**2, rtol=1e-15)
-    assert (velocity.output.unit, acceleration.output.unit, acceleration.sensor) == (
+    assert (velocity.output.unit, acceleration.output.unit, acceleration.quantity) == (
         "rad/s",
         "rad/s^2",
-        Sensor.ACCELERATION,
+        Quantity.ACCELERATION,
     )
     assert acceleration.to_quantity("acceleration") is acceleration
 
 
-@given(st.sampled_from(list(Sensor)), st.sampled_from(list(Sensor)))
+@given(st.sampled_from(list(Quantity)), st.sampled_from(list(Quantity)))
 def test_conversions_are_undone_by_their_reverse(first, second):
-    response = FrequencyResponse(OMEGA, MASS + 1j * OMEGA, OMEGA, sensor=first)
+    response = FrequencyResponse(OMEGA, MASS + 1j * OMEGA, OMEGA, quantity=first)
     back = response.to_quantity(second).to_quantity(first)
     np.testing.assert_allclose(back.G, response.G, rtol=1e-14)
     np.testing.assert_allclose(back.deviation, response.deviation, rtol=1e-14)
@@ -170,7 +170,7 @@ def test_a_reversed_sensor_is_suspected_in_any_unit(size):
 
 def test_copies_for_other_processes_are_equal_and_read_only():
     response = FrequencyResponse(
-        OMEGA[::-1], MASS, MASS.real, sensor="velocity", output=Signal("v", "m/s"), origin="a"
+        OMEGA[::-1], MASS, MASS.real, quantity="velocity", output=Signal("v", "m/s"), origin="a"
     )
     for found in (pickle.loads(pickle.dumps(response)), copy.deepcopy(response)):
         assert found == response and (found.origin, found.notes) == (

@@ -21,7 +21,7 @@ from disting.measurement import (
 )
 from disting.measurement.tabular import frequency_response
 from disting.measurement.text_table import table
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 FREQUENCY = np.arange(1.0, 13.0)
 G = 2.0 * np.exp(1j * np.deg2rad(7.5 * FREQUENCY)) * FREQUENCY
@@ -51,7 +51,7 @@ def test_dialects_of_three_columns(tmp_path, delimiter, decimal, head):
     text = [*(h.format(d=delimiter) for h in head), *lines(ROWS, delimiter, decimal)]
     found = read(written(tmp_path / "a.csv", text), quantity="velocity")
     assert np.array_equal(found.omega, FREQUENCY * 2 * np.pi)
-    assert np.array_equal(found.G, G) and found.sensor is Sensor.VELOCITY
+    assert np.array_equal(found.G, G) and found.quantity is Quantity.VELOCITY
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
@@ -118,7 +118,7 @@ def test_several_responses_with_deviation_and_coherence(tmp_path):
     assert np.array_equal(second.G, -G.conj()) and np.array_equal(
         second.deviation, np.full(12, 0.2)
     )
-    assert np.array_equal(first.coherence, np.full(12, 0.9)) and first.sensor is Sensor.VELOCITY
+    assert np.array_equal(first.coherence, np.full(12, 0.9)) and first.quantity is Quantity.VELOCITY
     assert np.array_equal(read(path, column="ReG_b", sign=-1).G, G.conj())
     assert second.origin == "a.csv, column 6 (ReG_b)"
 
@@ -165,12 +165,17 @@ def test_the_sensor_is_taken_from_words_or_said_to_be_assumed(tmp_path):
             written(tmp_path / "a.csv", [f"# {head}", "f [Hz],Re,Im", *lines(ROWS)]), **options
         )
 
-    assert found("mobility of the spindle").sensor is Sensor.VELOCITY
-    assert found("rad/s^2 per A").sensor is Sensor.ACCELERATION and not found("rad/s^2 per A").notes
-    assert found("displacement per force").sensor is Sensor.POSITION
+    assert found("mobility of the spindle").quantity is Quantity.VELOCITY
+    assert (
+        found("rad/s^2 per A").quantity is Quantity.ACCELERATION
+        and not found("rad/s^2 per A").notes
+    )
+    assert found("displacement per force").quantity is Quantity.POSITION
     doubtful = found("velocity from position")
-    assert doubtful.sensor is Sensor.ACCELERATION and "taken as acceleration" in doubtful.notes[0]
-    assert found("mobility", sensor="position").sensor is Sensor.POSITION
+    assert (
+        doubtful.quantity is Quantity.ACCELERATION and "taken as acceleration" in doubtful.notes[0]
+    )
+    assert found("mobility", quantity="position").quantity is Quantity.POSITION
 
 
 @pytest.mark.parametrize(
@@ -279,7 +284,7 @@ FINITE = st.floats(-1e300, 1e300, allow_subnormal=True).filter(bool)
 @given(
     st.lists(st.floats(1e-6, 1e6), min_size=8, max_size=20, unique=True),
     st.data(),
-    st.sampled_from(list(Sensor)),
+    st.sampled_from(list(Quantity)),
 )
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
 def test_what_is_written_reads_back_bit_by_bit(tmp_path, omega, data, sensor):

@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 from disting.errors import InputError
 from disting.measurement import TimeSeries, periodic
 from disting.measurement.periodic import detected_period, excited_lines, holds_transient
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 RATE, PERIOD = 1000.0, 500
 LINES = np.arange(11, 120, 2)
@@ -29,13 +29,13 @@ def filtered(u):
 
 def test_a_delay_is_found_exactly_with_period_and_lines_detected():
     u = multisine()
-    found = TimeSeries(u, filtered(u), RATE, sensor="velocity").response()
+    found = TimeSeries(u, filtered(u), RATE, quantity="velocity").response()
     np.testing.assert_allclose(found.frequency, LINES * RATE / PERIOD, rtol=1e-14)
     np.testing.assert_allclose(found.G, 0.5 * np.exp(-3j * found.omega / RATE), rtol=1e-10)
     assert (
         found.coherence.min() > 1 - 1e-12
         and found.deviation.max() < 1e-10
-        and found.sensor is Sensor.VELOCITY
+        and found.quantity is Quantity.VELOCITY
     )
     assert found.notes == (
         "period of 500 samples (0.5 s) detected in the input",
@@ -83,7 +83,7 @@ def test_conversion_and_sign():
     series = TimeSeries(u, filtered(u), RATE)
     position, acceleration = series.response(), series.sign_reversed().response("acceleration")
     np.testing.assert_allclose(acceleration.G, position.omega**2 * position.G, rtol=1e-12)
-    assert acceleration.sensor is Sensor.ACCELERATION
+    assert acceleration.quantity is Quantity.ACCELERATION
 
 
 def test_deviation_and_coherence_are_those_of_the_noise():

@@ -17,7 +17,7 @@ from disting.measurement import (
 from disting.measurement.repeats import find_outliers
 from disting.measurement.scaling import in_omega, scale, with_constant
 from disting.measurement.units import DRIVES, MOTIONS, motion, ratio
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from disting.report.fit.words import unit_of
 from tests.measurement.bench_data import measured_data
 
@@ -43,16 +43,16 @@ def parts(tmp_path, comment, header="f [Hz],Re,Im"):
 @pytest.mark.parametrize(
     ("comment", "output", "input", "sensor", "factor", "mass"),
     [
-        ("# rad/s^2 per Nm", "rad/s^2", "Nm", Sensor.ACCELERATION, 1.0, "kg m²"),
-        ("# bench of June, (m/s)/N", "m/s", "N", Sensor.VELOCITY, 1.0, "kg"),
-        ("# deg/Nm", "rad", "Nm", Sensor.POSITION, np.pi / 180, "kg m²"),
-        ("# um/kN", "m", "N", Sensor.POSITION, 1e-9, "kg"),
-        ("# mm/s² per mA", "m/s^2", "A", Sensor.ACCELERATION, 1.0, "A/(m/s²)"),
+        ("# rad/s^2 per Nm", "rad/s^2", "Nm", Quantity.ACCELERATION, 1.0, "kg m²"),
+        ("# bench of June, (m/s)/N", "m/s", "N", Quantity.VELOCITY, 1.0, "kg"),
+        ("# deg/Nm", "rad", "Nm", Quantity.POSITION, np.pi / 180, "kg m²"),
+        ("# um/kN", "m", "N", Quantity.POSITION, 1e-9, "kg"),
+        ("# mm/s² per mA", "m/s^2", "A", Quantity.ACCELERATION, 1.0, "A/(m/s²)"),
     ],
 )
 def test_units_of_comments_are_taken_to_si(tmp_path, comment, output, input, sensor, factor, mass):
     found = in_si(read(parts(tmp_path, comment + "\n")))
-    assert (found.output.unit, found.input.unit, found.sensor) == (output, input, sensor)
+    assert (found.output.unit, found.input.unit, found.quantity) == (output, input, sensor)
     np.testing.assert_allclose(found.G, G * factor, rtol=1e-14)
     assert unit_of("m", found) == mass and not any(
         "sensor quantity" in note for note in found.notes
@@ -69,13 +69,13 @@ def test_what_is_no_unit_is_left_alone(tmp_path):
 
 
 @pytest.mark.parametrize("unit", [*MOTIONS, "cm/s", "mrad/s²", "rev/s", "mm/s2", "rpm/s"])
-@pytest.mark.parametrize("wanted", Sensor)
+@pytest.mark.parametrize("wanted", Quantity)
 def test_another_quantity_keeps_the_unit_whatever_it_is(unit, wanted):
     """Units that were not in one of two lists were lost, so that a record in rev was read as rad,
     one in cm as m, wherever another quantity was asked for.
     """
     seen = FrequencyResponse(
-        2 * np.pi * FREQUENCY, G, sensor=motion(unit).sensor, output=Signal("y", unit)
+        2 * np.pi * FREQUENCY, G, quantity=motion(unit).quantity, output=Signal("y", unit)
     )
     found, before = in_si(seen.to_quantity(wanted)), in_si(seen).to_quantity(wanted)
     np.testing.assert_allclose(found.G, before.G, rtol=1e-14)
@@ -115,7 +115,7 @@ def test_a_unit_that_is_known_is_known_in_a_comment():
 
 
 def test_units_that_the_caller_gives():
-    plain = FrequencyResponse(2 * np.pi * FREQUENCY, G, deviation=np.ones(12), sensor="position")
+    plain = FrequencyResponse(2 * np.pi * FREQUENCY, G, deviation=np.ones(12), quantity="position")
     found = in_si(plain.to_quantity("velocity"), output="deg", input="mNm")
     np.testing.assert_allclose(
         found.G, plain.to_quantity("velocity").G * np.pi / 180 * 1e3, rtol=1e-14

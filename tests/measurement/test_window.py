@@ -51,7 +51,7 @@ def test_short_segments_show_the_response_under_their_window():
     window = found.window
     shown = found.windowed()
     assert window.duration == 500 / RATE and shown.window.ratio is None
-    points, weights = line_weights(shown.window, shown.omega, shown.sensor.order)
+    points, weights = line_weights(shown.window, shown.omega, shown.quantity.order)
     pole = np.exp((-0.005 + 1j) * 2 * np.pi * 50 / RATE)
     z = np.exp(1j * points / RATE)
     model = weights @ (z / (z - pole) / (z - pole.conjugate()))

@@ -14,9 +14,9 @@ from disting import (
     ConstraintViolation,
     Family,
     InputError,
+    Quantity,
     Query,
     Relation,
-    Sensor,
     View,
     compare,
 )
@@ -280,12 +280,12 @@ def test_bad_input(arguments):
 def test_chains_are_values():
     one, other = (
         Chain(2, ground_dampers=(2, 1, 2), damped=False),
-        Chain(2, ground_dampers=[1, 2], sensor="acceleration", damped=False),
+        Chain(2, ground_dampers=[1, 2], quantity="acceleration", damped=False),
     )
     assert one == other
     assert hash(one) == hash(other)
     assert one.ground_dampers == (1, 2)
-    assert one.sensor is Sensor.ACCELERATION
+    assert one.quantity is Quantity.ACCELERATION
     with pytest.raises(FrozenInstanceError):
         one.gap = 1
 
@@ -337,9 +337,9 @@ def test_numbers_of_parameters_and_states(chain):
 )
 def test_sensor_orders(sensor, order):
     assert (
-        Sensor(sensor).order
+        Quantity(sensor).order
         == order
-        == Chain(1, sensor=sensor, damped=False).structure.sensor_order
+        == Chain(1, quantity=sensor, damped=False).structure.sensor_order
     )
 
 
@@ -364,7 +364,7 @@ def test_a_chain_in_words():
                 2,
                 1,
                 2,
-                sensor="velocity",
+                quantity="velocity",
                 damped=True,
                 ground_dampers=(1, 2),
                 lag=True,
@@ -398,10 +398,10 @@ def test_three_masses():
 
 @pytest.mark.parametrize("n_masses", [1, 2, 3, 4, 5])
 def test_numbers_and_order(n_masses):
-    family = Family(n_masses, damped=True, sensor=Sensor.POSITION)
+    family = Family(n_masses, damped=True, quantity=Quantity.POSITION)
     assert [family.number(chain) for chain in family] == list(range(1, len(family) + 1))
     assert [chain.indices for chain in family] == sorted({chain.indices for chain in family})
-    assert all(chain.damped and chain.sensor is Sensor.POSITION for chain in family)
+    assert all(chain.damped and chain.quantity is Quantity.POSITION for chain in family)
     assert family[1] == family.models[0]
 
 
@@ -431,10 +431,10 @@ def test_a_chain_with_extras_is_in_no_family():
     ],
 )
 def test_usual_words_for_a_quantity(words, quantity):
-    assert {Chain(2, sensor=word).sensor.value for word in words} == {quantity}
+    assert {Chain(2, quantity=word).quantity.value for word in words} == {quantity}
 
 
 @pytest.mark.parametrize("word", ["torque", "Torque per speed", "current", "iq"])
 def test_what_drives_a_machine_is_no_quantity_of_its_response(word):
     with pytest.raises(InputError, match="what the sensor shows: position, velocity or acc"):
-        Chain(2, sensor=word)
+        Chain(2, quantity=word)

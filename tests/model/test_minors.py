@@ -96,7 +96,7 @@ def monomorphisms(part, whole):
         node_match=lambda a, b: a["fixed"] == b["fixed"] and a["damper"] >= b["damper"],
         edge_match=lambda a, b: a["kinds"] >= b["kinds"],
     )
-    same = part.sensor == whole.sensor and part.lag <= whole.lag
+    same = part.quantity == whole.quantity and part.lag <= whole.lag
     return [{b: a for a, b in m.items()} for m in matcher.subgraph_monomorphisms_iter() if same]
 
 
@@ -167,7 +167,7 @@ def test_without_lag_is_a_part_of_with_lag():
     "other",
     [
         Chain(3, meas_plus=2, damped=False),
-        Chain(3, sensor="position", damped=False),
+        Chain(3, quantity="position", damped=False),
         Chain(3, dead_time=True, damped=False),
         Chain(4, 1, 1, 2, 1, 2, damped=False),
     ],

@@ -18,7 +18,7 @@ from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.next_files import next_catalog
 from disting.catalogs.sizes import combined_family, sizes_catalog
 from disting.decide.identifiability.analysis import identifiability
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.names import chain_of, name_of, read, read_together
 
 EXTRAS = [(), ("+b1",), ("+b3", "+b1"), ("+lag",), ("+delay", "+b2", "+lag")]
@@ -31,16 +31,16 @@ EXTRAS = [(), ("+b1",), ("+b3", "+b1"), ("+lag",), ("+delay", "+b2", "+lag")]
     lag=st.booleans(),
     late=st.booleans(),
     damped=st.booleans(),
-    sensor=st.sampled_from(Sensor),
+    quantity=st.sampled_from(Quantity),
 )
 def test_what_is_written_is_read_as_the_same_chain(
-    n: int, at: int, dampers: set[int], lag: bool, late: bool, damped: bool, sensor: Sensor
+    n: int, at: int, dampers: set[int], lag: bool, late: bool, damped: bool, quantity: Quantity
 ) -> None:
-    family = Family(n, damped, sensor)
+    family = Family(n, damped, quantity)
     indices = family[1 + at % len(family)].indices
     on_it = tuple(i for i in dampers if i <= n)
-    chain = Chain(*indices, sensor, damped, on_it, lag, late)
-    assert read_together([name_of(chain)], damped=damped, sensor=sensor) == [chain]
+    chain = Chain(*indices, quantity, damped, on_it, lag, late)
+    assert read_together([name_of(chain)], damped=damped, quantity=quantity) == [chain]
     short = "A" + name_of(chain).partition(":")[2]
     assert chain_of(short, family, masses=n) == chain
 
@@ -67,14 +67,14 @@ def test_a4_is_of_the_size_that_is_known() -> None:
         read_together(["3:1", "A12"])
 
 
-def test_damping_and_sensor_are_said_or_taken_from_the_chain_beside() -> None:
-    beside = Family(3, damped=False, sensor=Sensor.VELOCITY)[1]
-    assert read_together(["3:4", beside])[0] == Family(3, False, Sensor.VELOCITY)[4]
-    said = read_together(["3:4", beside], damped=True, sensor="position")
-    assert said == [Family(3, True, Sensor.POSITION)[4], beside]
+def test_damping_and_quantity_are_said_or_taken_from_the_chain_beside() -> None:
+    beside = Family(3, damped=False, quantity=Quantity.VELOCITY)[1]
+    assert read_together(["3:4", beside])[0] == Family(3, False, Quantity.VELOCITY)[4]
+    said = read_together(["3:4", beside], damped=True, quantity="position")
+    assert said == [Family(3, True, Quantity.POSITION)[4], beside]
     assert read_together(["3:4"]) == [Family(3, damped=True)[4]]
-    with pytest.raises(InputError, match="sensor is position"):
-        read_together(["3:4"], sensor="jerk")
+    with pytest.raises(InputError, match="quantity is position"):
+        read_together(["3:4"], quantity="jerk")
 
 
 @pytest.mark.parametrize(
@@ -134,17 +134,17 @@ def test_what_is_built_means_what_is_named():
     assert compare("3:1", "3:4").relation is compare(Family(3)[1], Family(3)[4]).relation
 
 
-@pytest.mark.parametrize("family", [Family(3), Family(2, False, Sensor.POSITION)], ids=repr)
+@pytest.mark.parametrize("family", [Family(3), Family(2, False, Quantity.POSITION)], ids=repr)
 def test_a_family_prints_as_what_can_be_typed_in_again_and_its_chains_by_their_names(family):
     assert eval(repr(family), {"Family": Family}) == family
     names = [repr(chain).split()[1] for chain in family]
-    assert read_together(names, damped=family.damped, sensor=family.sensor) == list(family)
+    assert read_together(names, damped=family.damped, quantity=family.quantity) == list(family)
     shown = repr(family)
-    assert f"damped={family.damped}" in shown and f"sensor='{family.sensor}'" in shown
+    assert f"damped={family.damped}" in shown and f"quantity='{family.quantity}'" in shown
 
 
 @pytest.mark.parametrize("kind", [Family, Chain])
-@pytest.mark.parametrize("wrong", [{"damped": "no"}, {"damped": 1}, {"sensor": 3}], ids=str)
-def test_damping_and_sensor_of_another_type_are_refused(kind, wrong):
-    with pytest.raises(InputError, match=r"True or False|sensor is position"):
+@pytest.mark.parametrize("wrong", [{"damped": "no"}, {"damped": 1}, {"quantity": 3}], ids=str)
+def test_damping_and_quantity_of_another_type_are_refused(kind, wrong):
+    with pytest.raises(InputError, match=r"True or False|quantity is position"):
         kind(3, **wrong)

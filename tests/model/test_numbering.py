@@ -5,7 +5,7 @@ from itertools import pairwise, product
 import pytest
 from hypothesis import given, strategies as st
 
-from disting import Family, InputError, Sensor, compare, verify
+from disting import Family, InputError, Quantity, compare, verify
 from disting.model.chain import Chain, Indices, violations
 from disting.model.family import MOST_MASSES, after, before, count
 from disting.model.names import name_of, read
@@ -34,13 +34,13 @@ def test_counting_is_listing(n):
 
 @pytest.mark.parametrize("n", [1, 2, 8, 9, 12])
 def test_the_family_of_a_size_numbers_these(n):
-    family = Family(n, damped=True, sensor=Sensor.VELOCITY)
+    family = Family(n, damped=True, quantity=Quantity.VELOCITY)
     assert [chain.indices for chain in family] == list(listed(n))
     for number in {1, len(family) // 2 + 1, len(family)}:
         chain = family[number]
         assert (family.number(chain), name_of(chain)) == (number, f"{n}:{number}")
         assert chain in family and chain not in Family(n)
-        assert (chain.damped, chain.sensor) == (True, Sensor.VELOCITY)
+        assert (chain.damped, chain.quantity) == (True, Quantity.VELOCITY)
 
 
 @given(st.integers(13, MOST_MASSES), st.randoms(use_true_random=False))
@@ -91,6 +91,6 @@ def test_commands_call_large_chains_by_their_names(words, said):
 
 
 def test_one_number_of_two_machines_is_told_apart_by_damping_and_quantity():
-    found = compare(Chain(9), Chain(9, damped=False, sensor=Sensor.VELOCITY)).sentence
+    found = compare(Chain(9), Chain(9, damped=False, quantity=Quantity.VELOCITY)).sentence
     assert found.startswith("9:1 (damped, acceleration) and 9:1 (undamped, velocity) are dist")
     assert "masses, gap" not in found

@@ -54,10 +54,10 @@ def test_the_canonical_form_is_one_for_all_forms(chain):
 def test_forms_keep_everything_but_ports_and_numbering(chain):
     for form in forms(chain):
         c = form.chain
-        assert (c.n_masses, c.gap, c.sensor, c.damped, c.lag, c.dead_time) == (
+        assert (c.n_masses, c.gap, c.quantity, c.damped, c.lag, c.dead_time) == (
             chain.n_masses,
             chain.gap,
-            chain.sensor,
+            chain.quantity,
             chain.damped,
             chain.lag,
             chain.dead_time,

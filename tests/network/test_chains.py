@@ -4,7 +4,7 @@ from itertools import combinations
 
 import pytest
 
-from disting import Chain, Family, Inclusion, Query, Sensor, View, compare, verify
+from disting import Chain, Family, Inclusion, Quantity, Query, View, compare, verify
 from disting.general.any_model import of_network
 from disting.general.matrix_model import Model
 from disting.model.chain import text_drawing
@@ -126,7 +126,7 @@ def test_masses_alone_have_a_response_in_positions():
     assert str(of_network(network_of("1~2; F1; S1; position", name="free"))).endswith("s**4)")
     alone = network_of("1~2, 3~#; F3; S3; position")
     assert str(of_network(alone)) == "G(s) = 1/(k03 + m3*s**2)"
-    single = of_network(network_of("[1FS]", quantity=Sensor.POSITION))
+    single = of_network(network_of("[1FS]", quantity=Quantity.POSITION))
     assert str(single) == "G(s) = 1/(m1*s**2)"
 
 

@@ -345,7 +345,7 @@ def test_a_number_names_a_network(name):
 
 def test_a_number_of_a_machine_takes_the_quantity():
     assert network_of("machines-2:1", quantity="position").order == 0
-    assert compare("machines-2:1", "3:1", sensor="velocity").relation == "distinguishable"
+    assert compare("machines-2:1", "3:1", quantity="velocity").relation == "distinguishable"
 
 
 @pytest.mark.parametrize("name", ["trees-9", "trees-3", "cells-6", "circuits-4-damped", "nets-1"])

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from disting import Chain, Sensor
+from disting import Chain, Quantity
 from disting.network import Element, Network, Port, network_of
 from disting.network.denotation import Naming, naming_of
 from disting.network.isomorphism import is_same_network
@@ -188,8 +188,8 @@ CELL = network_of("R0-p(R1,C1)")
         ("1=2=3; F1; S2", replace(CHAIN, lag=True), "false"),
         ("3:2+b3+lag", replace(CHAIN, lag=True, ground_dampers=(3,)), "denoted"),
         ("3:2+lag+b3", replace(CHAIN, lag=True, ground_dampers=(3,)), "denoted"),
-        ("3:2", replace(CHAIN, sensor=Sensor.VELOCITY), "denoted"),
-        ("1=2=3; F1; S2", replace(CHAIN, sensor=Sensor.VELOCITY), "denoted"),
+        ("3:2", replace(CHAIN, quantity=Quantity.VELOCITY), "denoted"),
+        ("1=2=3; F1; S2", replace(CHAIN, quantity=Quantity.VELOCITY), "denoted"),
     ],
 )
 def test_a_name_denotes_one_model_or_is_free(

@@ -88,7 +88,7 @@ def response(
     """G(s) at a real s, `values` by element; mass i locked, known inertias, brakes and springs added."""
     n = chain.n_masses
     matrix = [[Fraction(0)] * (n + 1) for _ in range(n + 1)]
-    factor = s ** ORDERS[str(chain.sensor)]
+    factor = s ** ORDERS[str(chain.quantity)]
     known = [(("m", i, i), x) for i, x in (inertias or {}).items()]
     known += [(("b", i, 0), x) for i, x in (brakes or {}).items()]
     known += [(("k", i, 0), x) for i, x in (springs or {}).items()]

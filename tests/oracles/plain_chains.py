@@ -42,7 +42,7 @@ def plain_chain(chain: Any) -> Plain:
         tuple("+".join(f"({t})" for t in cell) or "0" for cell in row) for row in entries
     )
     port = lambda plus, minus: tuple(str((i == plus) - (i == minus)) for i in range(1, n + 1))  # noqa: E731
-    order = ORDERS[str(chain.sensor)]
+    order = ORDERS[str(chain.quantity)]
     lag = ["T1"] * chain.lag
     return Plain(
         (*names, *lag),

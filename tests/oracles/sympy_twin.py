@@ -102,7 +102,7 @@ def state_space(chain: Any) -> StateSpace:
     b = Matrix.vstack(zeros(n), inverse)  # (21)
     c = Matrix.vstack(eye(2 * n), upper * a)  # (22)
     d = Matrix.vstack(zeros(2 * n, n), upper * b)  # (23)
-    rows = slice(chain.sensor.order * n, (chain.sensor.order + 1) * n)
+    rows = slice(chain.quantity.order * n, (chain.quantity.order + 1) * n)
     plain = StateSpace(
         a,
         b * mechanics.e_act,

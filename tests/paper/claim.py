@@ -18,7 +18,18 @@ from types import MappingProxyType
 
 import numpy as np
 
-from disting import Catalog, Chain, Decisions, Domain, Engine, Family, Query, Sensor, View, catalog
+from disting import (
+    Catalog,
+    Chain,
+    Decisions,
+    Domain,
+    Engine,
+    Family,
+    Quantity,
+    Query,
+    View,
+    catalog,
+)
 from disting.catalogs.dampers import DamperSets, DamperTable, dampers
 from disting.conditions.rule import RULES
 from disting.fit import Cost, Plant, Selection, Task, estimates, figure_1, select
@@ -120,7 +131,7 @@ def _vector(chain: Chain, values: Mapping[str, float]) -> Real:
     return np.array([values[name] for name in chain.parameters])
 
 
-PictureKey = tuple[int, bool, View, int, Sensor]
+PictureKey = tuple[int, bool, View, int, Quantity]
 
 
 @dataclass
@@ -142,7 +153,7 @@ class Findings:
         damped: bool,
         view: View,
         markov: int = 0,
-        sensor: Sensor = Sensor.ACCELERATION,
+        sensor: Quantity = Quantity.ACCELERATION,
     ) -> Decisions:
         """All pairs of a family, by the conditions in one view; `markov` parameters after G_0,
         0 = all.

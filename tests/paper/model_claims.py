@@ -6,7 +6,7 @@ from collections import Counter
 from dataclasses import replace
 from itertools import combinations
 
-from disting import Chain, Family, Query, Relation, Sensor, Verdict, View
+from disting import Chain, Family, Quantity, Query, Relation, Verdict, View
 from disting.catalogs.dampers import DamperSets, spell
 from disting.model.chain import Indices, violations
 from tests.paper.claim import Claim, Findings, Observation, Observed, families, models, name_list
@@ -239,12 +239,12 @@ def sensors(findings: Findings) -> Observed:
             shapes = [
                 {
                     int(label[1:]) - shift
-                    for label in _series(findings, replace(chain, sensor=sensor), 12 + shift)
+                    for label in _series(findings, replace(chain, quantity=sensor), 12 + shift)
                 }
                 for sensor, shift in (
-                    (Sensor.ACCELERATION, 0),
-                    (Sensor.VELOCITY, 1),
-                    (Sensor.POSITION, 2),
+                    (Quantity.ACCELERATION, 0),
+                    (Quantity.VELOCITY, 1),
+                    (Quantity.POSITION, 2),
                 )
             ]
             moved.append(shapes[0] == shapes[1] == shapes[2])

@@ -13,7 +13,7 @@ from itertools import chain as flatten, combinations
 import numpy as np
 import pytest
 
-from disting import Chain, Engine, Family, Outcome, Query, Relation, Sensor, View, compare
+from disting import Chain, Engine, Family, Outcome, Quantity, Query, Relation, View, compare
 from disting.behaviour.sample import Representation
 from disting.conditions.sufficient import condition_7, condition_9
 from tests.paper.fibre import fibre_is_empty
@@ -23,7 +23,7 @@ PAPER = Query(View.COMBINED)
 
 
 @cache
-def decided(n_masses, damped=False, view=View.COMBINED, markov=0, sensor=Sensor.ACCELERATION):
+def decided(n_masses, damped=False, view=View.COMBINED, markov=0, sensor=Quantity.ACCELERATION):
     subjects = [
         ENGINE.subject(f"A{i}", chain)
         for i, chain in enumerate(Family(n_masses, damped, sensor), 1)
@@ -269,7 +269,7 @@ def test_within_a_family_conditions_2_and_8_are_never_pivotal():
 
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("view", [View.TF, View.MARKOV, View.COMBINED])
-@pytest.mark.parametrize("sensor", [Sensor.POSITION, Sensor.VELOCITY])
+@pytest.mark.parametrize("sensor", [Quantity.POSITION, Quantity.VELOCITY])
 def test_every_sensor_quantity_gives_the_same_picture(sensor, view, damped):
     plain, other = decided(3, damped, view), decided(3, damped, view, sensor=sensor)
     assert np.array_equal(plain.decided_by, other.decided_by)

@@ -119,8 +119,8 @@ EXAMPLES = [
     Family(3, damped=True)[1],
     Family(3, damped=True)[9],
     Chain(2, damped=True, lag=True),
-    Chain(2, 1, 1, 2, 1, 2, sensor="velocity", lag=True, damped=False),
-    Chain(2, 0, 0, 1, 0, 2, sensor="position", damped=True, ground_dampers=(1,)),
+    Chain(2, 1, 1, 2, 1, 2, quantity="velocity", lag=True, damped=False),
+    Chain(2, 0, 0, 1, 0, 2, quantity="position", damped=True, ground_dampers=(1,)),
     Chain(2, 0, 0, 1, 0, 2, ground_dampers=(1, 2), damped=False),
 ]
 

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from disting import Family, Relation, Sensor, View
+from disting import Family, Quantity, Relation, View
 from disting.conditions.rule import DEPENDENCES, Outcome as Holding, Stage
 from disting.conditions.sufficient import condition_7, condition_9
 from disting.verdict.decisions import Pair
@@ -439,7 +439,7 @@ def same_pictures(findings: Findings) -> Observed:
         )
         for damped in (False, True)
         for view in (View.TF, View.MARKOV, View.COMBINED)
-        for sensor in (Sensor.POSITION, Sensor.VELOCITY)
+        for sensor in (Quantity.POSITION, Quantity.VELOCITY)
     ]
     return Observed("the same condition decides in every field", all(equal), BOTH)
 

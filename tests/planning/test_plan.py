@@ -294,7 +294,7 @@ def test_a_fit_does_what_is_promised(pair, repeats):
     )
     values |= {"b1": 0.1, "Td": 2e-4} if pair == "lag" else {"b1": 0.01}
     level = (0.058 if pair == "lag" else 0.051) * float(np.sqrt(repeats))
-    machine = Drive(replace(one, sensor="velocity"), values, level, 0)
+    machine = Drive(replace(one, quantity="velocity"), values, level, 0)
     omega = measured(machine, 1).omega
     rho = true_scatter(machine, omega, repeats)
     promised = plan(one, values, other, omega, rho, repeats=repeats).power

@@ -59,7 +59,7 @@ def test_planned_power_is_had(planned):
     for _ in range(count):
         error = draw.normal(size=len(OMEGA)) + 1j * draw.normal(size=len(OMEGA))
         measured = FrequencyResponse(
-            OMEGA, exact * (1 + planned.rival.rho * error), sensor="position"
+            OMEGA, exact * (1 + planned.rival.rho * error), quantity="position"
         )
         excluded += gain(planned.rival, measured) > limit
     assert excluded / count == pytest.approx(0.95, abs=3.5 * np.sqrt(0.95 * 0.05 / count))

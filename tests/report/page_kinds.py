@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from disting import Engine, Sensor, network_of
+from disting import Engine, Quantity, network_of
 from disting.catalogs import catalog
 from disting.catalogs.dampers import damper_catalog
 from disting.catalogs.network_files import recall
@@ -132,7 +132,7 @@ def _write_networks(folder: Path) -> None:
     noise = np.random.default_rng(2).normal(size=(2, 30)) * 0.04
     impedance = 10 + 1 / (1 / 80 + 2e-5 * (1j * omega) ** 0.93)
     measured = impedance * (1 + noise[0] + 1j * noise[1])
-    cell = FrequencyResponse(omega, measured, sensor=Sensor.POSITION, is_impedance=True)
+    cell = FrequencyResponse(omega, measured, quantity=Quantity.POSITION, is_impedance=True)
     texts = ("R0-p(R1,P1)", "R0-p(R1,C1)-p(R2,C2)", "p(R2,R0-P1)", "R0-p(R1,C1)")
     write_network_report(fit_networks(cell, list(map(network_of, texts))), folder)
     assert main(["plan", str(folder / "fit.json"), "--out", str(folder)]) == 0
@@ -180,8 +180,8 @@ def asking(found: Selection) -> Selection:
     """The selection, if a speed had explained its data as well."""
     best = found.described.estimate
     readings = (
-        QuantityReading(Sensor.ACCELERATION, best, 1.0, is_assumed=True, integrates=True),
-        QuantityReading(Sensor.VELOCITY, best, 1.02),
+        QuantityReading(Quantity.ACCELERATION, best, 1.0, is_assumed=True, integrates=True),
+        QuantityReading(Quantity.VELOCITY, best, 1.02),
     )
     return replace(
         found,

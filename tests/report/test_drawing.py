@@ -17,7 +17,7 @@ from disting.catalogs import catalog
 from disting.catalogs.next_files import next_catalog
 from disting.experiments.experiment import Experiment
 from disting.experiments.menu import Item
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.family import Family
 from disting.model.kinds import FORCE, KINDS, LOCK, SENSOR
 from disting.report import chain_png, chain_svg, describe, model_page
@@ -164,7 +164,11 @@ FAMILIES = [Family(n, damped) for n, damped in product(range(1, 6), (False, True
 def chains(pick: st.DrawFn) -> Chain:
     chain = pick(st.sampled_from([c for family in FAMILIES for c in family]))
     dampers = pick(st.sets(st.integers(1, chain.n_masses)))
-    lag, dead_time, sensor = pick(st.booleans()), pick(st.booleans()), pick(st.sampled_from(Sensor))
+    lag, dead_time, sensor = (
+        pick(st.booleans()),
+        pick(st.booleans()),
+        pick(st.sampled_from(Quantity)),
+    )
     return Chain(*chain.indices, sensor, chain.damped, tuple(dampers), lag, dead_time)
 
 

@@ -14,7 +14,7 @@ from scipy.signal import lsim
 
 from disting.general.any_model import of_network
 from disting.general.model_files import ModelList
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from disting.network import network_of
 from disting.network.families import family_of
 from disting.report.listing import Listing, judge
@@ -151,7 +151,7 @@ def test_the_page_knows_every_verdict(found) -> None:
     data = data_of(motion_page_of(found))
     assert data["names"] == list(TEXTS) and data["masses"] == 3 and data["damped"]
     assert data["groups"] == [list(group) for group in found.found.classes(View.POSITIVE)]
-    assert [m["order"] for m in data["machines"]] == [Sensor.ACCELERATION.order] * 4
+    assert [m["order"] for m in data["machines"]] == [Quantity.ACCELERATION.order] * 4
 
 
 @pytest.mark.full

@@ -122,7 +122,7 @@ def test_candidates_before_a_fit_and_networks_are_shown():
     assert "indistinguishable" in text(found.duplicates[0]._repr_html_())
     omega = np.logspace(0, 3, 30)
     noisy = 1 + 1e-3 * np.random.default_rng(1).normal(size=(30, 2)) @ [1, 1j]
-    data = FrequencyResponse(omega, (1 + 2 / (1 + 0.02j * omega)) * noisy, sensor="position")
+    data = FrequencyResponse(omega, (1 + 2 / (1 + 0.02j * omega)) * noisy, quantity="position")
     assert "is the simplest that explains" in text(fit_networks(data, [cell, other])._repr_html_())
     assert "chains-5-damped" in text(sizes_catalog(damped=True)._repr_html_())
 

@@ -54,7 +54,7 @@ def test_exceptions_are_those_of_docstring_and_body() -> None:
 
 
 def test_members_that_are_public_and_explained() -> None:
-    sensor = next(entry for entry in entries("disting") if entry.name == "Sensor")
+    sensor = next(entry for entry in entries("disting") if entry.name == "Quantity")
     kinds = {member.name: member.kind for member in sensor.members}
     assert kinds["POSITION"] is Kind.MEMBER and kinds["order"] is Kind.PROPERTY
 

@@ -29,7 +29,7 @@ from disting.network.notation import network_of
 from disting.planning.next_experiment import Reason
 from disting.planning.power import Answer
 from disting.planning.rival import Limit, Trust
-from disting.quantities import Sensor
+from disting.quantities import Quantity
 from disting.schemas import Format, schema
 from disting.simulation import Bench, demo, simulate
 from disting.verdict import placement_verdicts
@@ -208,7 +208,7 @@ def test_words_of_the_schemas_are_those_of_the_program() -> None:
     defined = schema(Format.VERDICT)["$defs"] | schema(Format.PLAN)["$defs"]
     words = {
         "relation": [r.value for r in Relation],
-        "quantity": [s.value for s in Sensor],
+        "quantity": [s.value for s in Quantity],
         "domain": [d.value for d in Domain],
         "inclusion": [i.value for i in Inclusion],
         "certainty": ["", *(c.value for c in Certainty)],

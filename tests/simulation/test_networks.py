@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings, strategies as st
 
 from disting.errors import InputError
 from disting.general.any_model import of_network
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.network import Element, Network, Port, network_of
 from disting.network.chains import of_chain
 from disting.simulation import (
@@ -81,7 +81,7 @@ def test_a_record_without_noise_has_the_response_of_the_network(text):
     network = network_of(text, quantity="velocity")
     values = truth(network)
     found = simulate(network, values, BAND, BENCH).response()
-    assert len(found) == 196 and found.sensor is list(Sensor)[network.order]
+    assert len(found) == 196 and found.quantity is list(Quantity)[network.order]
     np.testing.assert_allclose(found.G, expanded(network, values, found.omega), rtol=1e-7)
 
 

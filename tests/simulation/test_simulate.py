@@ -11,7 +11,7 @@ from hypothesis import given, strategies as st
 from scipy.signal import cont2discrete
 
 from disting.errors import InputError
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.family import Family
 from disting.simulation import (
     DEMO_MODEL,
@@ -102,15 +102,15 @@ def sympy_response(chain, values, omega):
     force[chain.act_plus] += 1
     force[chain.act_minus] -= 1
     x = [0, *A[1:, 1:].LUsolve(force[1:, :])]
-    G = s**chain.sensor.order * (x[chain.meas_plus] - x[chain.meas_minus])
+    G = s**chain.quantity.order * (x[chain.meas_plus] - x[chain.meas_minus])
     G = G * sympy.exp(-s * values.get("Td", 0)) / (1 + s * values.get("T1", 0))
     return np.array([complex(G.subs(s, sympy.I * w).evalf(30)) for w in omega])
 
 
 CHAINS = [
-    Chain(1, sensor=Sensor.POSITION, damped=True, ground_dampers=(1,)),
+    Chain(1, quantity=Quantity.POSITION, damped=True, ground_dampers=(1,)),
     Chain(2, damped=True, ground_dampers=(1, 2), lag=True, dead_time=True),
-    Chain(3, meas_plus=3, sensor=Sensor.VELOCITY, damped=True),
+    Chain(3, meas_plus=3, quantity=Quantity.VELOCITY, damped=True),
     *(Family(3, damped=True)[i] for i in (1, 5, 8, 11)),
 ]
 
@@ -120,7 +120,7 @@ def test_a_record_without_noise_has_the_response_of_the_model(chain):
     values = truth(chain)
     found = simulate(chain, values, BAND, BENCH).response()
     model = frequency_response(chain, values, found.omega)
-    assert len(found) == 196 and found.sensor is chain.sensor
+    assert len(found) == 196 and found.quantity is chain.quantity
     assert np.abs(found.G / model - 1).max() < 1e-8
     some = slice(0, None, 49)
     np.testing.assert_allclose(
@@ -256,7 +256,7 @@ def test_coulomb_friction_acts_like_the_describing_function_of_a_sign():
     """One sine, one mass: friction c sign(v) seen at the same frequency is a damper 4 c / (pi
     V) for speeds of amplitude V.
     """
-    chain = Chain(1, sensor=Sensor.VELOCITY, damped=False)
+    chain = Chain(1, quantity=Quantity.VELOCITY, damped=False)
     c, low = 0.02, 10.0
     bench = Bench(samples=250, periods=12, friction={1: Friction(coulomb=c, speed=2e-3)})
     record = simulate(chain, {"m1": 0.01}, Excitation(low=low, high=low + 1.0, rms=1.0), bench)
@@ -270,7 +270,7 @@ def test_coulomb_friction_acts_like_the_describing_function_of_a_sign():
 def test_the_demonstration_is_a_bench_that_shows_its_model():
     found = demo().response("acceleration")
     model = frequency_response(
-        replace(DEMO_MODEL, sensor=Sensor.ACCELERATION), DEMO_PARAMETERS, found.omega
+        replace(DEMO_MODEL, quantity=Quantity.ACCELERATION), DEMO_PARAMETERS, found.omega
     )
     assert len(found) == 241 and found.suspicions == () and demo() == demo() and demo() != demo(1)
     assert 0.7 < np.mean(np.abs((found.G - model) / found.deviation) ** 2) < 1.4

@@ -277,7 +277,7 @@ def test_the_true_structure_is_kept(machine, repeats):
 @pytest.mark.full
 def test_a_damper_that_is_hardly_there_is_below_a_value():
     """A steel shaft: the structure stays, and says how much the damper is at most."""
-    chain = Chain(2, sensor="velocity", damped=True, ground_dampers=(1,))
+    chain = Chain(2, quantity="velocity", damped=True, ground_dampers=(1,))
     values = {"m1": 5e-3, "m2": 4e-3, "k12": 500.0, "d12": 1e-5, "b1": 0.1}
     machine = Drive(chain, values, 0.06, 3)
     data = measured(machine, 10)
@@ -291,7 +291,7 @@ def test_a_damper_that_is_hardly_there_is_below_a_value():
 
 @pytest.mark.full
 def test_a_damper_may_be_fixed_to_zero_or_left_away():
-    chain = Chain(2, sensor="velocity", ground_dampers=(1,))
+    chain = Chain(2, quantity="velocity", ground_dampers=(1,))
     values = {"m1": 5e-3, "m2": 4e-3, "k12": 500.0, "d12": 1e-9, "b1": 0.1}
     data = measured(Drive(chain, values, 0.06, 3), 10)
     with_damper = Chain(2, ground_dampers=(1,))

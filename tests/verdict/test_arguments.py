@@ -7,14 +7,22 @@ import pytest
 
 from disting import (
     InputError,
+    MatrixModel,
     Model,
     Query,
     View,
+    alternatives,
     compare,
     compare_everywhere,
+    equivalents,
     everywhere_file,
+    explicit_map,
     findings,
+    gate,
+    global_identifiability,
     identifiability,
+    local_identifiability,
+    network_of,
     transfer_function,
     verdict_file,
     verify,
@@ -51,7 +59,7 @@ def test_matrices_are_compared_as_the_models_that_they_make():
     [
         (
             LEAKS[:2],
-            r"\(A, B, C\) or \(A, B, C, D\), not 2 entries; transfer functions are a Model",
+            r"\(A, B, C\) or \(A, B, C, D\), not 2 entries; for a transfer function",
         ),
         (OSCILLATOR, "numbers only: write a name such as 'k'"),
         ((*LEAKS[:2], [["0", "1", "1"]]), "C is 1 x 2"),
@@ -60,6 +68,28 @@ def test_matrices_are_compared_as_the_models_that_they_make():
 def test_other_tuples_are_refused_with_the_remedy(wrong, words):
     with pytest.raises(InputError, match=words):
         compare(wrong, EXCHANGE)
+
+
+def test_matrices_are_models_everywhere():
+    values = {"k12": 1, "k01": 2, "k02": 3}
+    (found,) = equivalents(LEAKS, values, EXCHANGE)
+    assert found.verdict.right == "state space 2"
+    assert alternatives(LEAKS, values, EXCHANGE).equivalents
+    assert gate([LEAKS, EXCHANGE]).kept[0].startswith("state space ")
+    assert local_identifiability(LEAKS).rank == 3
+    assert global_identifiability(LEAKS).local.rank == 3
+
+
+@pytest.mark.parametrize("kind", [Model, MatrixModel])
+def test_a_class_that_is_given_matrices_names_its_constructor(kind):
+    with pytest.raises(InputError, match=rf"given to {kind.__name__}\.from_state_space"):
+        kind(*OSCILLATOR)
+
+
+@pytest.mark.parametrize("network", ["R0-p(R1,C1)", network_of("R0-p(R1,C1)"), LEAKS])
+def test_formulas_of_other_models_are_found_elsewhere(network):
+    with pytest.raises(InputError, match="use equivalents or alternatives"):
+        explicit_map(network, "3:1")
 
 
 def test_a_domain_is_that_of_the_command_line():
@@ -93,7 +123,7 @@ CALLS = {
 
 @pytest.mark.parametrize("function", CALLS, ids=lambda f: f.__name__)
 def test_the_old_name_of_quantity_is_accepted_with_a_warning(function):
-    with pytest.warns(DeprecationWarning, match="the argument sensor is called quantity now"):
+    with pytest.warns(DeprecationWarning, match="the argument sensor is now called quantity"):
         old = function(*CALLS[function], sensor="velocity")
     assert old == function(*CALLS[function], quantity="velocity")
     with pytest.raises(InputError, match="give quantity alone"):

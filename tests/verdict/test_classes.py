@@ -138,7 +138,7 @@ def test_chains_that_do_not_belong_together_are_refused():
         [],
         [Chain(2, damped=False), Chain(3, damped=False)],
         [Chain(2, damped=False), Chain(2, damped=True)],
-        [Chain(2, damped=False), Chain(2, sensor="position", damped=False)],
+        [Chain(2, damped=False), Chain(2, quantity="position", damped=False)],
     ):
         with pytest.raises(InputError, match="one size"):
             classes(chains, ENGINE)

@@ -9,7 +9,7 @@ from typing import get_args
 import pytest
 from hypothesis import Phase, given, settings, strategies as st
 
-from disting import Engine, Experiment, Family, Query, Sensor, View, verify
+from disting import Engine, Experiment, Family, Quantity, Query, View, verify
 from disting.algebra.certainty import Certainty
 from disting.evidence.decision import THEOREMS, Exclusion, Theorem
 from disting.evidence.general import AtInverse, OfPart, Replacement
@@ -162,8 +162,8 @@ def refuse_differences(verdicts):
 def test_evidence_that_is_made_is_that_which_is_read(view, damped):
     engine = Engine()
     chains = [
-        *((f"3:{i}", c) for i, c in enumerate(Family(3, damped, Sensor.VELOCITY), 1)),
-        *((f"2:{i}", c) for i, c in enumerate(Family(2, damped, Sensor.VELOCITY), 1)),
+        *((f"3:{i}", c) for i, c in enumerate(Family(3, damped, Quantity.VELOCITY), 1)),
+        *((f"2:{i}", c) for i, c in enumerate(Family(2, damped, Quantity.VELOCITY), 1)),
     ]
     decided = engine.decisions([engine.subject(*one) for one in chains], Query(view))
     refuse_differences(decided.verdict(*pair) for pair in combinations(range(len(chains)), 2))

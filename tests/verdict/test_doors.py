@@ -9,7 +9,7 @@ from random import Random
 
 import pytest
 
-from disting import Engine, Family, Query, Sensor, View, catalog, compare, read_models, verify
+from disting import Engine, Family, Quantity, Query, View, catalog, compare, read_models, verify
 from disting.general.matrix_model import Model
 from disting.general.model_files import ModelList, models_of, write_models
 from disting.model.names import name_of
@@ -24,7 +24,7 @@ STRANGER = {"name": "low pass", "num": ["k"], "den": ["T", 1]}
 def entry(chain):
     """A chain of a file, by a name of its own."""
     name = name_of(chain)
-    quantity = {"damped": chain.damped, "sensor": chain.sensor.value}
+    quantity = {"damped": chain.damped, "sensor": chain.quantity.value}
     return {"name": f"own {name}{' damped' * chain.damped}", "chain": name, **quantity}
 
 
@@ -188,6 +188,6 @@ def drawn(random, sizes, damped, sensor):
 @pytest.mark.parametrize("seed", range(4))
 def test_two_hundred_pairs_of_four_and_five_masses(seed):
     random = Random(seed)
-    sensor = random.choice(list(Sensor))
+    sensor = random.choice(list(Quantity))
     chains = dict.fromkeys(drawn(random, (4, 5), seed % 2 == 1, sensor) for _ in range(11))
     refuse_differences(list(chains))

@@ -10,9 +10,9 @@ from disting import (
     Experiment,
     Family,
     Model,
+    Quantity,
     Query,
     Relation,
-    Sensor,
     View,
     catalog,
     compare,
@@ -38,7 +38,7 @@ def test_a_sentence_says_models_domain_reason_and_certainty(n, damped):
 
 
 def test_what_is_not_the_same_of_both_is_said_of_each():
-    mixed = compare(Chain(2, sensor="position"), Family(2, damped=False)[2])
+    mixed = compare(Chain(2, quantity="position"), Family(2, damped=False)[2])
     start = "2:1 (damped, position) and 2:2 (undamped, acceleration) are distinguishable"
     assert mixed.sentence.startswith(start)
     beside = compare("2:1", Model.from_transfer_function("a", "s + b", name="filter"))
@@ -59,7 +59,7 @@ def test_general_models_are_no_machines():
 
 
 def test_plain_data_says_damping_and_quantity():
-    data = compare("3:1", "3:4", quantity=Sensor.VELOCITY).to_dict()
+    data = compare("3:1", "3:4", quantity=Quantity.VELOCITY).to_dict()
     assert data["left_premise"] == data["right_premise"] == {"damped": True, "quantity": "velocity"}
 
 

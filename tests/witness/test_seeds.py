@@ -6,7 +6,7 @@ from itertools import combinations
 
 import pytest
 
-from disting import Engine, Family, Query, Relation, Sensor, Settings, Verdict, View, catalog
+from disting import Engine, Family, Quantity, Query, Relation, Settings, Verdict, View, catalog
 
 Relations = dict[tuple[int, int], Relation]
 
@@ -75,15 +75,15 @@ def _verdict(family: Family, left: int, right: int) -> Verdict:
 
 @pytest.mark.thin(2)
 @pytest.mark.parametrize("damped", [False, True])
-@pytest.mark.parametrize("sensor", [Sensor.POSITION, Sensor.VELOCITY])
-def test_three_masses_with_other_sensors(damped: bool, sensor: Sensor) -> None:
+@pytest.mark.parametrize("sensor", [Quantity.POSITION, Quantity.VELOCITY])
+def test_three_masses_with_other_sensors(damped: bool, sensor: Quantity) -> None:
     assert computed(Family(3, damped, sensor)) == shipped(3, damped)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("damped", [False, True])
-@pytest.mark.parametrize("sensor", [Sensor.POSITION, Sensor.VELOCITY])
-def test_four_masses_with_other_sensors(damped: bool, sensor: Sensor) -> None:
+@pytest.mark.parametrize("sensor", [Quantity.POSITION, Quantity.VELOCITY])
+def test_four_masses_with_other_sensors(damped: bool, sensor: Quantity) -> None:
     assert computed(Family(4, damped, sensor)) == shipped(4, damped)
 
 

@@ -39,7 +39,7 @@ from disting.decide.identifiability.tangent import (
 )
 from disting.errors import ContradictionError
 from disting.fibres.synthesis.task import Status
-from disting.model.chain import Chain, Sensor, Structure
+from disting.model.chain import Chain, Quantity, Structure
 from disting.model.names import read_together
 from disting.model.question import Answer, Question, Settings
 from disting.model.symmetry import Form, canonical
@@ -52,7 +52,7 @@ def identifiability(
     settings: Settings | None = None,
     *,
     damped: bool | None = None,
-    quantity: Sensor | str | None = None,
+    quantity: Quantity | str | None = None,
 ) -> Identifiability:
     """Find which parameters of the chain its behaviour determines over complex parameters, and how
     many parameter vectors have the same behaviour. `disting.identifiability` has other domains.
@@ -64,7 +64,7 @@ def identifiability(
     >>> identifiability(Chain(2, meas_plus=2, damped=False)).sentence
     '3 parameters, only 2 determinable: m1 + m2, k12/(m1*m2).'
     """
-    (chain,) = read_together([chain], damped=damped, sensor=quantity)
+    (chain,) = read_together([chain], damped=damped, quantity=quantity)
     form = canonical(chain)
     return in_names_of(_canonically(form.chain, settings or Settings()), form, chain)
 

@@ -132,7 +132,7 @@ def twins(chain: Chain) -> tuple[Chain, ...]:
     """
     if chain.ground_dampers or chain.lag or chain.dead_time:
         return (chain,)
-    members = Family(chain.n_masses, chain.damped, chain.sensor)
+    members = Family(chain.n_masses, chain.damped, chain.quantity)
     return tuple(dict.fromkeys(canonical(c).chain for c in members if theorem(chain, c)))
 
 

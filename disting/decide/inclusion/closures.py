@@ -48,7 +48,7 @@ from disting.fibres.ideals.splits import (
     receptances,
     splits,
 )
-from disting.model.chain import Chain, Sensor, Structure
+from disting.model.chain import Chain, Quantity, Structure
 from disting.model.row import FREE, canonical_rows
 
 ClosureProof = tuple[Task, Proof | None]
@@ -64,7 +64,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
     <Why.MOMENTUM: 'momentum'>
     """
     structure, other = (
-        replace(c, sensor=Sensor.POSITION, dead_time=False).structure for c in (small, large)
+        replace(c, quantity=Quantity.POSITION, dead_time=False).structure for c in (small, large)
     )
     if not _alike(structure, other):
         return None
@@ -116,7 +116,7 @@ def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) ->
     and each of them holds again.
     """
     structure, other = (
-        replace(c, sensor=Sensor.POSITION, dead_time=False).structure for c in (small, large)
+        replace(c, quantity=Quantity.POSITION, dead_time=False).structure for c in (small, large)
     )
     if not _alike(structure, other):
         return False

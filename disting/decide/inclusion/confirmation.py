@@ -41,7 +41,7 @@ from disting.evidence.limits import (
     TooLarge,
 )
 from disting.fibres.ideals import Limits, coefficient_map, confirms_by_rows, decide, normalise
-from disting.model.chain import Chain, Sensor, Structure
+from disting.model.chain import Chain, Quantity, Structure
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
 
@@ -291,4 +291,4 @@ def _fall_apart(small: Chain, large: Chain, small_rank: int, large_rank: int) ->
 
 def _receptance(chain: Chain) -> Structure:
     """The structure with a sensor of position, without dead time."""
-    return replace(chain, sensor=Sensor.POSITION, dead_time=False).structure
+    return replace(chain, quantity=Quantity.POSITION, dead_time=False).structure

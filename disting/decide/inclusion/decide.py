@@ -117,7 +117,7 @@ def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
 
 def of_two_sensors(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
     """Not asked of two sensor quantities."""
-    if left.chain.sensor is right.chain.sensor:
+    if left.chain.quantity is right.chain.quantity:
         return None
     return InclusionFinding(Inclusion.UNKNOWN, reason=ONE_SENSOR)
 
@@ -159,7 +159,7 @@ def of_limits(
     """Finding on equivalents from the finding on limits, since a model that is not a limit has no
     equivalent; limits for two sensor quantities are not considered.
     """
-    two_sensors = left.chain.sensor is not right.chain.sensor
+    two_sensors = left.chain.quantity is not right.chain.quantity
     return closure if closure.inclusion is Inclusion.NEITHER or two_sensors else None
 
 

@@ -21,7 +21,7 @@ from disting.behaviour.chain_model import powers
 from disting.decide.inclusion.limits import Step, follows, least_rank, most_rank, reach
 from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals import Decision, Limits, coefficient_map, decide, holds_for
-from disting.model.chain import Chain, Damper, Element, Mass, Ports, Sensor, Spring, Structure
+from disting.model.chain import Chain, Damper, Element, Mass, Ports, Quantity, Spring, Structure
 from disting.model.question import Membership
 from disting.model.row import Row, canonical_rows
 
@@ -79,7 +79,7 @@ def contains(small: Chain, large: Chain, steps: RowSteps, solved: Solutions) -> 
 
 def position(chain: Chain) -> Structure:
     """The chain's structure with a sensor of position, without dead time."""
-    return replace(chain, sensor=Sensor.POSITION, dead_time=False).structure
+    return replace(chain, quantity=Quantity.POSITION, dead_time=False).structure
 
 
 def join(rows: Sequence[Row]) -> Structure:

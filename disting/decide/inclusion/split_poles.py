@@ -9,7 +9,7 @@ from disting.algebra.certainty import prime, residues
 from disting.algebra.determinants import Modular
 from disting.algebra.quotient import constant, variable
 from disting.behaviour.chain_model import degrees, quotient
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 
 ATTEMPTS = 1000  # points tried until one is found
 REMEMBERED = 256
@@ -49,7 +49,7 @@ def model_at(chain: Chain, point: tuple[int, ...], modulus: int) -> Split | None
 
 def accelerate(chain: Chain) -> Chain:
     """With a sensor of acceleration, whose transfer function is n/d'; without dead time."""
-    return replace(chain, sensor=Sensor.ACCELERATION, dead_time=False)
+    return replace(chain, quantity=Quantity.ACCELERATION, dead_time=False)
 
 
 def _in_steps(polynomial: Modular, step: int, modulus: int) -> Modular:

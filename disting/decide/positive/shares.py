@@ -106,7 +106,7 @@ def by_obstacle(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None
 
 def refuse(chain: Chain, other: Chain) -> None:
     """Raise InputError for chains that cannot be compared here."""
-    kinds = [(c.n_masses, c.damped, c.sensor, c.dead_time) for c in (chain, other)]
+    kinds = [(c.n_masses, c.damped, c.quantity, c.dead_time) for c in (chain, other)]
     if kinds[0] != kinds[1]:
         raise InputError("chains of one size, damping, sensor quantity and dead time are compared")
 

@@ -119,7 +119,7 @@ def check_fibre(evidence: FibreAt, a: Chain, b: Chain) -> bool:
     way = Direction.LEFT_IN_RIGHT if evidence.left_given else Direction.RIGHT_IN_LEFT
     chain = a if evidence.left_given else b
     names = sorted(name for name, _ in evidence.point)
-    comparable = (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
+    comparable = (a.n_masses, a.quantity) == (b.n_masses, b.quantity)
     if names != sorted(chain.structure.parameters) or not comparable:
         return False  # it speaks of other models
     try:

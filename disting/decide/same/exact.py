@@ -94,7 +94,7 @@ def refuse_unequal(left: AnySide, right: AnySide) -> Finding | None:
 
 def are_alike(a: Chain, b: Chain, settings: Settings) -> bool:
     """Return True for chains of one size and sensor quantity."""
-    return (a.n_masses, a.sensor) == (b.n_masses, b.sensor)
+    return (a.n_masses, a.quantity) == (b.n_masses, b.quantity)
 
 
 def recheck_labels(

@@ -201,7 +201,7 @@ def _refuse(chain: Chain, other: Chain) -> None:
             f"chains of equal size are compared, not of {chain.n_masses} and {other.n_masses}"
             " masses"
         )
-    if chain.sensor != other.sensor or chain.dead_time:
+    if chain.quantity != other.quantity or chain.dead_time:
         raise InputError("chains with the same sensor quantity and without dead time are compared")
 
 

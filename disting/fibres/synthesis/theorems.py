@@ -167,7 +167,7 @@ def are_same_by_rows(left: Chain, right: Chain) -> bool:
 
 def _alike(left: Chain, right: Chain) -> bool:
     plain = not any(c.damped or c.ground_dampers or c.lag or c.dead_time for c in (left, right))
-    return plain and (left.n_masses, left.sensor) == (right.n_masses, right.sensor)
+    return plain and (left.n_masses, left.quantity) == (right.n_masses, right.quantity)
 
 
 def _same(left: Row, right: Row) -> bool:
@@ -181,9 +181,9 @@ def are_dual(left: Chain, right: Chain) -> bool:
     >>> are_dual(Chain(3, 0, 0, 1, 0, 1, damped=True), Chain(3, 2, 2, 3, 2, 3, damped=True))
     True
     """
-    plain = all(_at_gap(c) for c in (left, right)) and (left.damped, left.sensor) == (
+    plain = all(_at_gap(c) for c in (left, right)) and (left.damped, left.quantity) == (
         right.damped,
-        right.sensor,
+        right.quantity,
     )
     return plain and left.n_masses == right.n_masses == left.gap + right.gap + 1
 
@@ -220,7 +220,9 @@ def _at_gap(chain: Chain) -> bool:
 
 def _mirror_gap(chain: Chain) -> Chain:
     h = chain.n_masses - 1 - chain.gap
-    return Chain(chain.n_masses, h, h, h + 1, h, h + 1, sensor=chain.sensor, damped=chain.damped)
+    return Chain(
+        chain.n_masses, h, h, h + 1, h, h + 1, quantity=chain.quantity, damped=chain.damped
+    )
 
 
 def _grounded(masses: list[Scalar], springs: list[Law[Scalar]], total: Scalar) -> Outwards[Scalar]:

@@ -198,7 +198,7 @@ def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], R
     matrix = _shipped()
     if (
         matrix is not None
-        and len({c.sensor for c in chains}) == 1
+        and len({c.quantity for c in chains}) == 1
         and all(c in matrix for c in chains)
     ):
         return lambda i, j: matrix.relation(chains[i], chains[j])
@@ -214,7 +214,7 @@ def _surely_apart(winner: Chain, other: Chain) -> bool:
         matrix is None
         or winner not in matrix
         or other not in matrix
-        or winner.sensor is not other.sensor
+        or winner.quantity is not other.quantity
     ):
         return False
     return matrix.relation(winner, other) is Relation.DISTINGUISHABLE

@@ -219,7 +219,7 @@ def _network(layout: Layout, chain: Chain) -> Network:
     text = ", ".join(f"{i}{joint}{j}" for i, j in edges) + f"; F1; S{sensor}"
     text += f"; damper{'s' if len(grounded) > 1 else ''} to the ground at " * bool(grounded)
     text += " and ".join(map(str, grounded))
-    return Network(elements, (Port(1),), (Port(sensor),), chain.sensor.order, text)
+    return Network(elements, (Port(1),), (Port(sensor),), chain.quantity.order, text)
 
 
 def _synthesized(
@@ -307,7 +307,7 @@ def _same_bases(chain: Chain) -> tuple[list[Chain], bool]:
     """
     n, count = chain.n_masses, len(chain.ground_dampers)
     dampers = combinations(range(1, n + 1), count)
-    bases = [Chain(n, 1, 1, 2, 1, 2, chain.sensor, chain.damped, chosen) for chosen in dampers]
+    bases = [Chain(n, 1, 1, 2, 1, 2, chain.quantity, chain.damped, chosen) for chosen in dampers]
     if not count:
         same = base_is_the_same(chain)
         return bases if same else [], not same

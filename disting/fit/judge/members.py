@@ -236,7 +236,7 @@ def _with_friction(
         for twin in found
         for other, new in _damped_at_port(twin.chain)
     )
-    plain = (chain_of_whole_name(text, chain.damped, chain.sensor) for text in unknown)
+    plain = (chain_of_whole_name(text, chain.damped, chain.quantity) for text in unknown)
     damped = (reference(other) for c in plain if c for other, _ in _damped_at_port(c))
     return tuple(t for t in the_twins if _inside(t.parameters, limits)), tuple(damped)
 
@@ -283,7 +283,7 @@ def _catalogue(chain: Chain) -> Iterable[Chain]:
     n = chain.n_masses
     sizes = range(n + 1) if n <= EVERY_SET else [len(chain.ground_dampers)]
     sets = [chosen for size in sizes for chosen in combinations(range(1, n + 1), size)]
-    for plain in Family(n, chain.damped, chain.sensor):
+    for plain in Family(n, chain.damped, chain.quantity):
         for chosen in sets:
             yield replace(plain, ground_dampers=chosen, lag=chain.lag, dead_time=chain.dead_time)
 

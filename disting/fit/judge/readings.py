@@ -37,7 +37,7 @@ from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real, apply
 from disting.measurement.assumptions import assumed_quantity
 from disting.measurement.tabular import ASSUMED_LINEAR
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.quantities import MODELLED
 from disting.store import Store
 
@@ -55,12 +55,12 @@ def read_in_words(measured: FrequencyResponse) -> str:
     origin = f"{measured.origin}: " if measured.origin else ""
     reading = f"{measured.reading}; " if measured.reading else ""
     if measured.is_impedance:
-        return f"{origin}{reading}{measured.quantity}"
+        return f"{origin}{reading}{measured.quantity_word}"
     quantity = assumed_quantity(measured)
     phrase = "" if quantity is None else " (assumed)"
-    if quantity is not None and quantity is not measured.sensor:
+    if quantity is not None and quantity is not measured.quantity:
         phrase = f", from a {quantity.value} (assumed)"
-    return f"{origin}{reading}sensor: {measured.sensor.value}{phrase}"
+    return f"{origin}{reading}sensor: {measured.quantity.value}{phrase}"
 
 
 def outside(candidate: Candidate, measured: FrequencyResponse) -> Iterator[str]:
@@ -71,7 +71,7 @@ def outside(candidate: Candidate, measured: FrequencyResponse) -> Iterator[str]:
         yield (
             f"the lag T1 = {values['T1']:.3g} s has its corner at {corner:.3g} Hz, below the lowest"
             f" line ({low:.3g} Hz): over the whole band it integrates; is the quantity"
-            f" {measured.sensor.value} right? --quantity names another"
+            f" {measured.quantity.value} right? --quantity names another"
         )
     if values.get("Td", 0.0) * low > 1:
         yield (
@@ -142,7 +142,7 @@ class QuantityReading:
     over the whole band.
     """
 
-    quantity: Sensor
+    quantity: Quantity
     found: Estimate
     chi2: float
     is_assumed: bool = False
@@ -393,9 +393,9 @@ def _views(loose: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
     data = first.measured
     yield "with the sign reversed", loose, reversed_sensor
     for quantity in MODELLED:
-        if quantity is not data.sensor:
-            cost = replace(first, measured=replace(data, sensor=quantity))
-            seen = replace(loose, sensor=quantity)
+        if quantity is not data.quantity:
+            cost = replace(first, measured=replace(data, quantity=quantity))
+            seen = replace(loose, quantity=quantity)
             yield f"read as {quantity.value}", seen, replace(task, cost=cost)
             yield (
                 f"read as {quantity.value} with the sign reversed",

@@ -128,7 +128,7 @@ class Margins:
 def loop_gain(chain: Chain, p: Real, controller: Controller, omega: Real) -> Complex:
     """L(j omega), shape (n_f,), at angular frequencies [rad/s]."""
     s: Complex = np.asarray(1j * omega, dtype=complex)
-    receptance = Plant(chain.structure, omega).response(p) / s**chain.sensor.order
+    receptance = Plant(chain.structure, omega).response(p) / s**chain.quantity.order
     return np.asarray(controller.gain(s) * controller.of_position(s) * receptance)
 
 

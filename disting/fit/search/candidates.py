@@ -6,7 +6,7 @@ from itertools import combinations, product
 
 from disting.errors import ConstraintViolation, InputError
 from disting.fit.search.setup import port
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.family import Family
 from disting.model.names import name_of
 from disting.model.symmetry import Form, forms
@@ -15,7 +15,7 @@ from disting.renamed import renamed
 
 @renamed(sensor="quantity")
 def figure_1(
-    sizes: Sequence[int] = (1, 2, 3, 4), quantity: Sensor = Sensor.ACCELERATION
+    sizes: Sequence[int] = (1, 2, 3, 4), quantity: Quantity = Quantity.ACCELERATION
 ) -> tuple[Chain, ...]:
     """Chains driven and seen at mass 1, every set of ground dampers, with and without lag and dead
     time. Raises InputError for a size below 1.
@@ -24,7 +24,7 @@ def figure_1(
     120
     """
     return tuple(
-        variant for n in sizes for variant in variants(Chain(n, sensor=quantity, damped=True))
+        variant for n in sizes for variant in variants(Chain(n, quantity=quantity, damped=True))
     )
 
 
@@ -42,7 +42,9 @@ def variants(chain: Chain) -> Iterator[Chain]:
 
 
 @renamed(sensor="quantity")
-def whole_family(sizes: Sequence[int], quantity: Sensor = Sensor.ACCELERATION) -> tuple[Chain, ...]:
+def whole_family(
+    sizes: Sequence[int], quantity: Quantity = Quantity.ACCELERATION
+) -> tuple[Chain, ...]:
     """Every chain under (36)-(38) of these sizes, with its variants. Raises InputError for a size
     below 1.
 
@@ -52,7 +54,7 @@ def whole_family(sizes: Sequence[int], quantity: Sensor = Sensor.ACCELERATION) -
     return tuple(
         v
         for n in sizes
-        for chain in Family(n, damped=True, sensor=quantity)
+        for chain in Family(n, damped=True, quantity=quantity)
         for v in variants(chain)
     )
 
@@ -63,7 +65,7 @@ def chosen_ports(
     actuator: str,
     shown: str,
     gap: int = 0,
-    quantity: Sensor = Sensor.ACCELERATION,
+    quantity: Quantity = Quantity.ACCELERATION,
 ) -> tuple[Chain, ...]:
     """Chains of several sizes with force and sensor at the same ports, with their variants.
 
@@ -138,7 +140,7 @@ def listed_form(chain: Chain) -> Form:
     """
     if chain.gap_damper:  # no other form behaves as it does
         return Form(chain, (), {name: name for name in chain.parameters})
-    family = Family(chain.n_masses, chain.damped, chain.sensor)
+    family = Family(chain.n_masses, chain.damped, chain.quantity)
     both = list(forms(chain))
     return next((form for form in both if _is_in(family, form.chain)), both[0])
 

@@ -96,7 +96,7 @@ def _has_factors(larger: Chain, smaller: Chain) -> bool:
     larger one too.
     """
     return (
-        larger.sensor is smaller.sensor
+        larger.quantity is smaller.quantity
         and larger.lag >= smaller.lag
         and larger.dead_time >= smaller.dead_time
         and larger.n_masses >= smaller.n_masses
@@ -108,7 +108,7 @@ def _plain(chain: Chain) -> Chain:
     """The chain without lag and dead time."""
     indices = chain.indices
     return Chain(
-        *indices, chain.sensor, chain.damped, chain.ground_dampers, gap_damper=chain.gap_damper
+        *indices, chain.quantity, chain.damped, chain.ground_dampers, gap_damper=chain.gap_damper
     )
 
 

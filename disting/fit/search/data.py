@@ -91,10 +91,10 @@ def check(
     for data in filter(None, every):
         if data.is_impedance:
             raise InputError(f"{data.origin or 'data'}: {NO_MOTION}")
-    other = {c.sensor for c in candidates} - {train.sensor}
+    other = {c.quantity for c in candidates} - {train.quantity}
     if other:
         raise InputError(
-            f"the data shows {train.sensor.value}, a candidate {other.pop().value}; choose one"
+            f"the data shows {train.quantity.value}, a candidate {other.pop().value}; choose one"
             " sensor quantity"
         )
     for data in filter(None, (train, test)):
@@ -114,9 +114,10 @@ def check(
 
 
 def _check_pair(train: FrequencyResponse, test: FrequencyResponse | None) -> None:
-    if test is not None and test.sensor is not train.sensor:
+    if test is not None and test.quantity is not train.quantity:
         raise InputError(
-            f"training shows {train.sensor.value}, test {test.sensor.value}; convert one of them"
+            f"training shows {train.quantity.value}, test {test.quantity.value};"
+            " convert one of them"
         )
     if test is not None and are_opposite(train, test):
         raise InputError(

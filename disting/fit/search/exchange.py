@@ -212,7 +212,7 @@ def _key(chain: Chain, task: Task, helpful: Mapping[Chain, Estimate], method: st
         digest(__name__),
         method,
         full_text(chain),
-        *(part.measured.sensor.value for part in cost.parts),
+        *(part.measured.quantity.value for part in cost.parts),
         *(
             full_text((setup, len(p.measured), p.observation))
             for setup, p in zip(cost.setups_of(chain.structure), cost.parts, strict=True)

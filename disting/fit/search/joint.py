@@ -184,7 +184,7 @@ class JointCost(SquaredCost):
         n, setups = structure.n_masses, self.setups_of(structure)
         plants = [
             Plant(
-                setup.seen(structure, part.measured.sensor),
+                setup.seen(structure, part.measured.quantity),
                 part.measured.omega,
                 sign * setup.sign,
                 setup.still(n),

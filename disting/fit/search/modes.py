@@ -56,7 +56,7 @@ def from_modes(
     if not wanted or not is_across(chain):
         return
     s = np.asarray(1j * measured.omega, dtype=np.complex128)
-    inertance = np.asarray(sign * measured.G * s ** (2 - measured.sensor.order), np.complex128)
+    inertance = np.asarray(sign * measured.G * s ** (2 - measured.quantity.order), np.complex128)
     rigid = 1 / float(np.median(1 / np.abs(inertance[: max(3, len(s) // 8)])))
     for more in MORE:
         for omegas, shares in modes(s, inertance, wanted, wanted + more):

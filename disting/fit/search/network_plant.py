@@ -264,7 +264,7 @@ def _solved(matrix: Complex, side: Complex) -> Complex:
 def measured_as(network: Network, measured: FrequencyResponse) -> Network:
     """The network with sensors of the measured quantity; circuits, compartments as they are."""
     is_machine = network.sort is Sort.MACHINE
-    return replace(network, order=measured.sensor.order) if is_machine else network
+    return replace(network, order=measured.quantity.order) if is_machine else network
 
 
 def random_starts(

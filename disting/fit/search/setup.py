@@ -13,7 +13,7 @@ from functools import partial
 from disting.errors import InputError, short
 from disting.experiments.changes import Change, changes_of, in_order
 from disting.experiments.experiment import Entry, Experiment, MeasuredChain, Place
-from disting.model.chain import Chain, Ports, Sensor, Structure
+from disting.model.chain import Chain, Ports, Quantity, Structure
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -103,7 +103,7 @@ class Setup:
             if change.kind.power is not None and change.size is not None
         )
 
-    def seen(self, structure: Structure, quantity: Sensor) -> Structure:
+    def seen(self, structure: Structure, quantity: Quantity) -> Structure:
         """The structure with this force and this sensor; raises InputError."""
         own, n = structure.ports, structure.n_masses
         act = _ends(self.force, n) if self.force else own[:2]
@@ -114,7 +114,7 @@ class Setup:
         """Why the machine cannot be measured so; "" where it can."""
         n = structure.n_masses
         try:
-            self.seen(structure, Sensor.POSITION)
+            self.seen(structure, Quantity.POSITION)
             whole = len(self.still(n)) == n
         except InputError as reason:
             return str(reason)

@@ -57,7 +57,7 @@ class Scale:
 
 def scale(measured: FrequencyResponse) -> Scale:
     """Natural sizes of a measured response."""
-    omega, order = measured.omega, measured.sensor.order
+    omega, order = measured.omega, measured.quantity.order
     inertia = omega ** (order - 2) / np.abs(measured.G)
     slope = -np.polyfit(omega, np.unwrap(np.angle(measured.G)), 1)[0]
     delay = float(np.clip(slope, 0.01 / omega[-1], 1.0 / omega[-1]))
@@ -116,7 +116,7 @@ def extrema(measured: FrequencyResponse) -> list[tuple[float, float]]:
     """Pairs (antiresonance, next resonance) [rad/s] of the apparent inertia, the most prominent
     first.
     """
-    level = np.log10(np.abs(measured.G)) + (2 - measured.sensor.order) * np.log10(measured.omega)
+    level = np.log10(np.abs(measured.G)) + (2 - measured.quantity.order) * np.log10(measured.omega)
     (highs, high), (lows, low) = (
         find_peaks(sign * level, prominence=PROMINENCE) for sign in (1, -1)
     )

@@ -6,7 +6,7 @@ from operator import mul
 
 from disting.algebra.symbols import symbols
 from disting.errors import InputError
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from disting.network.expansion import transfer_functions
 from disting.network.families.family import Kind
 from disting.network.notation import network_of
@@ -53,7 +53,7 @@ def _is_whole(masses: int, joints: Sequence[Edge], force: Edge, sensor: Edge) ->
     """
     s = symbols(["s"])["s"]
     try:
-        network = network_of(_machine(joints, force, sensor, "~"), quantity=Sensor.POSITION)
+        network = network_of(_machine(joints, force, sensor, "~"), quantity=Quantity.POSITION)
         values = {p: s**0 * x for p, x in zip(network.parameters, VALUES, strict=False)}
         (((num, den),),) = transfer_functions(network, {"s": s, **values}, "s", mul)
     except InputError:

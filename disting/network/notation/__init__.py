@@ -4,7 +4,7 @@ import re
 from fractions import Fraction
 
 from disting.errors import InputError, enumeration, of_type, short
-from disting.model.chain import Sensor, as_sensor
+from disting.model.chain import Quantity, as_quantity
 from disting.network.network import Network
 from disting.network.notation.circuit import (
     AUTOEIS,
@@ -57,7 +57,7 @@ def network_of(
     notation: str = "",
     *,
     name: str = "",
-    quantity: Sensor | str = Sensor.ACCELERATION,
+    quantity: Quantity | str = Quantity.ACCELERATION,
 ) -> Network:
     """The network that a text describes, in the notation that is named or that its signs show:
     "impedance", "autoeis", "boukamp", "impedancefitter", "spice", "machine", "compartments"; or
@@ -83,7 +83,7 @@ def network_of(
         )
     lines = filter(None, map(str.strip, text.split("\n")))
     called = name or ("; " if texts == ["spice"] else " ").join(lines)
-    read = {what: _read(text, what, called, as_sensor(quantity)) for what in texts}
+    read = {what: _read(text, what, called, as_quantity(quantity)) for what in texts}
     good = {what: made for what, made in read.items() if isinstance(made, Network)}
     if len(set(good.values())) > 1:
         raise InputError(
@@ -95,7 +95,7 @@ def network_of(
     return next(iter(good.values()))
 
 
-def _read(text: str, notation: str, name: str, quantity: Sensor) -> Network | InputError:
+def _read(text: str, notation: str, name: str, quantity: Quantity) -> Network | InputError:
     try:
         if notation in DIALECTS:
             return circuit(text, DIALECTS[notation], name)
@@ -127,7 +127,7 @@ def values_in(text: str, notation: str = "") -> dict[str, Fraction]:
         return {}
     for each in [notation] if notation else notations_of(text):
         if each in DIALECTS and isinstance(
-            _read(text, each, network.name, Sensor.ACCELERATION), Network
+            _read(text, each, network.name, Quantity.ACCELERATION), Network
         ):
             letters = {e.value: e for e in network.elements}
             inside = braces(text, DIALECTS[each])

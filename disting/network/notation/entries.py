@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from disting.errors import InputError, enumeration, of_type, short
-from disting.model.chain import Sensor, Sort, as_sensor
+from disting.model.chain import Quantity, Sort, as_quantity
 from disting.network.network import KINDS, Element, Network, Port, kind_of
 from disting.network.notation import DIALECTS, NOTATIONS, network_of
 from disting.network.notation.compartments import of_flows
@@ -34,7 +34,7 @@ Entry = Mapping[str, Any]
 
 def network_of_entry(entry: Entry, name: str) -> Network:
     """The network that an entry describes; raises InputError."""
-    quantity = as_sensor(entry.get("quantity", Sensor.ACCELERATION.value))
+    quantity = as_quantity(entry.get("quantity", Quantity.ACCELERATION.value))
     notation = of_type(entry.get("notation", ""), str, '"notation" is a text')
     for key in ("circuit", "machine", "network"):
         if key in entry:
@@ -66,7 +66,7 @@ def entry_of(network: Network) -> dict[str, object]:
     inputs, outputs = ([[p.plus, p.minus] for p in ps] for ps in (network.inputs, network.outputs))
     if network.sort is Sort.CIRCUIT and inputs == outputs:
         return {"elements": elements, "port": inputs}
-    quantity = list(Sensor)[network.order].value
+    quantity = list(Quantity)[network.order].value
     return {"elements": elements, "force": inputs, "sensor": outputs, "quantity": quantity}
 
 
@@ -105,7 +105,7 @@ def _of_flows(entry: Entry, name: str) -> Network:
     return of_flows(pairs, ports[0], ports[1], name)
 
 
-def _of_elements(entry: Entry, name: str, quantity: Sensor) -> Network:
+def _of_elements(entry: Entry, name: str, quantity: Quantity) -> Network:
     lists = of_type(entry["elements"], list, '"elements" is a list such as [["m1", 1]]')
     elements = tuple(map(_element, lists))
     if "port" in entry:

@@ -15,7 +15,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from disting.errors import InputError, enumeration, short
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 from disting.network.network import KINDS, Element, Network, Port
 
 JOINTS = {"=": "kd", "~": "k", "-": "d"}
@@ -26,7 +26,7 @@ DRAWN = re.compile(r"\[(\d+)([FfSs]*)\](,?)", re.ASCII)
 HELP = "write joints, then force and sensor, as in 1=2=3, 2~4; F1; S4"
 
 
-def machine(text: str, name: str, quantity: Sensor = Sensor.ACCELERATION) -> Network:
+def machine(text: str, name: str, quantity: Quantity = Quantity.ACCELERATION) -> Network:
     """The machine that a text describes; raises InputError.
 
     >>> print(*machine("1=2, 2~#; F1; S2", "axis").elements, sep=", ")
@@ -35,8 +35,8 @@ def machine(text: str, name: str, quantity: Sensor = Sensor.ACCELERATION) -> Net
     joints, ports = _joints_of_drawing(text) if DRAWN.search(text) else ([], [])
     quantities = []
     for part in [] if ports else filter(None, (p.strip() for p in text.split(";"))):
-        if part in tuple(Sensor):
-            quantities.append(Sensor(part))
+        if part in tuple(Quantity):
+            quantities.append(Quantity(part))
         elif part[0] in "FS":
             ports += [_port(word) for word in re.split(r"[\s,]+", part)]
         else:

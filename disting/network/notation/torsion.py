@@ -21,7 +21,7 @@ from fractions import Fraction
 from typing import Any
 
 from disting.errors import InputError, enumeration, of_type, short
-from disting.model.chain import Sensor, as_sensor
+from disting.model.chain import Quantity, as_quantity
 from disting.network.network import Element, Network, Port, parts
 from disting.network.notation.machine import joint_name
 
@@ -103,7 +103,7 @@ def drive_train(data: Entry, name: str) -> DriveTrain:
     for root, f in (factors[force], factors[sensor]):
         ends = (numbers[root], 0)
         ports.append((Port(*(ends if f * senses[root] > 0 else ends[::-1])),))
-    order = as_sensor(data.get("quantity", Sensor.ACCELERATION.value)).order
+    order = as_quantity(data.get("quantity", Quantity.ACCELERATION.value)).order
     values = {e.value: float(size) for e, size in zip(elements, sizes.values(), strict=True)}
     return DriveTrain(Network(tuple(elements), ports[0], ports[1], order, name), values)
 

@@ -149,7 +149,7 @@ def model_line(
     omega = np.unique(np.concatenate([lines, np.geomspace(lines.min(), lines.max(), POINTS)[1:-1]]))
     response = response_of(candidate, task, omega, at)
     phase = np.degrees(np.unwrap(np.angle(response)))
-    highest = HIGHEST + 90 * measured[0].sensor.order
+    highest = HIGHEST + 90 * measured[0].quantity.order
     return Line(
         omega,
         response,
@@ -199,7 +199,7 @@ def asymptotes(
 
 
 def _inertia(result: Result, chain: Chain, omega: Real) -> Real:
-    return np.asarray(omega ** (chain.sensor.order - 2) / result.value)
+    return np.asarray(omega ** (chain.quantity.order - 2) / result.value)
 
 
 def _amplitude(
@@ -224,7 +224,7 @@ def _amplitude(
     panel.grid(which="minor", linewidth=0.35)
     of = response_unit(series[0].measured)
     panel.set_ylabel(
-        f"Amplitude [{of}]" if of else f"Amplitude, {series[0].measured.sensor.value} per input"
+        f"Amplitude [{of}]" if of else f"Amplitude, {series[0].measured.quantity.value} per input"
     )
 
 

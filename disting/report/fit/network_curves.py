@@ -59,7 +59,7 @@ def network_line(fit: FittedNetwork, selection: NetworkSelection, at: int) -> Ne
     response, gradient = plant.logarithmic_gradient(p)
     own = slice(at, at + len(omega))  # the other responses have one line each
     fitted, slopes = response[own], (gradient[:, own] * p[:, None]).T
-    order = 1 if fit.network.sort is Sort.CIRCUIT else measured.sensor.order
+    order = 1 if fit.network.sort is Sort.CIRCUIT else measured.quantity.order
     across = (_normal(fitted).conj() * fitted)[:, None] * slopes
     errors = _errors(fit, np.concatenate([slopes.real, slopes.imag, across.real]))
     amplitude, phase, width = np.split(errors, 3)

@@ -149,7 +149,7 @@ def _joint_to_dict(selection: Selection) -> dict[str, Any]:
             {
                 "measured": setup.text,
                 "origin": part.measured.origin,
-                "quantity": part.measured.sensor.value,
+                "quantity": part.measured.quantity.value,
                 "lines": len(part.measured),
                 "sign": selection.task.sign * setup.sign,
                 "dead_time": setup.delay or "Td",
@@ -190,7 +190,7 @@ def _data(measured: FrequencyResponse) -> dict[str, Any]:
     return {
         "origin": measured.origin,
         "reading": measured.reading,
-        "quantity": measured.sensor.value,
+        "quantity": measured.quantity.value,
         "quantity_assumed": assumed_quantity(measured) is not None,
         "notes": list(measured.notes),
     }
@@ -301,7 +301,7 @@ def _named(chain: Chain) -> dict[str, Any]:
         "gap": gap,
         "actuator": [act_minus, act_plus],
         "sensor": [meas_minus, meas_plus],
-        "quantity": chain.sensor.value,
+        "quantity": chain.quantity.value,
         "damped": chain.damped,
         **({"gap_damper": True} if chain.gap_damper else {}),
     } | ({"renamed": form.renaming} if form.chain != chain else {})

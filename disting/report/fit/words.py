@@ -10,16 +10,16 @@ from disting.fit.search.cost import Case
 from disting.fit.search.joint import AnyCost
 from disting.measurement import FrequencyResponse
 from disting.measurement.units import unit_as
-from disting.model.chain import Chain, Damper, Sensor
+from disting.model.chain import Chain, Damper, Quantity
 from disting.report.words import plural
 
 NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOTIONS = {
-    "m": Sensor.ACCELERATION,
-    "d": Sensor.VELOCITY,
-    "b": Sensor.VELOCITY,
-    "k": Sensor.POSITION,
+    "m": Quantity.ACCELERATION,
+    "d": Quantity.VELOCITY,
+    "b": Quantity.VELOCITY,
+    "k": Quantity.POSITION,
 }
 SIMPLE = {  # what a quotient of units is usually called
     "N/(m/s²)": "kg",
@@ -155,7 +155,7 @@ def unit_of(kind: str, measured: FrequencyResponse) -> str:
     """
     if kind not in MOTIONS:
         return "s"
-    motion = unit_as(measured.output.unit, measured.sensor, MOTIONS[kind])
+    motion = unit_as(measured.output.unit, measured.quantity, MOTIONS[kind])
     if not measured.input.unit or not motion:
         return f"input per {MOTIONS[kind]}"
     quotient = (

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from sympy import Symbol, diff, sympify
 
-from disting import Chain, Family, Sensor, Settings
+from disting import Chain, Family, Quantity, Settings
 from disting.decide.identifiability.analysis import identifiabilities, identifiability
 from disting.decide.identifiability.parts import Formula
 from disting.decide.identifiability.tangent import proof_tangents
@@ -106,6 +106,6 @@ def test_points_of_proofs_are_independent():
 def test_a_coefficient_and_a_ground_damper_of_the_same_name_are_told_apart():
     ports = {"gap": 2, "act_minus": 1, "act_plus": 3, "meas_minus": 2, "meas_plus": 3}
     found = identifiability(
-        Chain(4, **ports, damped=False, sensor=Sensor.POSITION, ground_dampers=(1, 2, 3, 4))
+        Chain(4, **ports, damped=False, quantity=Quantity.POSITION, ground_dampers=(1, 2, 3, 4))
     )
     assert {"b4", "coefficient b4"} <= set(found.combinations)

@@ -36,7 +36,7 @@ from disting.fibres.ideals import (
     normalise,
     refuted_by_rows,
 )
-from disting.model.chain import Chain, Sensor
+from disting.model.chain import Chain, Quantity
 from disting.model.row import Row
 
 ENGINE = Engine()
@@ -302,7 +302,7 @@ def test_false_relative_degrees_are_refused():
 def test_row_falls_are_relative_degrees(n, damped):
     for chain in Family(n, damped):
         for more in ({}, {"lag": True}, {"ground_dampers": (1,)}):
-            form = replace(chain, sensor=Sensor.POSITION, **more)
+            form = replace(chain, quantity=Quantity.POSITION, **more)
             numerator, denominator = coefficient_map(form.structure).degrees
             assert denominator - numerator == min(row_falls(form))
 

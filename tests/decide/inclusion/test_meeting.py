@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 from disting import Chain, Family
 from disting.behaviour.chain_model import degrees, powers
 from disting.decide.inclusion.limits import Room, room
-from disting.model.chain import Sensor
+from disting.model.chain import Quantity
 
 POINTS = np.exp(np.linspace(-1, 1, 14) + 1j * (np.linspace(0.7, 21, 14) % 3.1))
 
@@ -156,11 +156,11 @@ def test_dampers_to_the_ground_and_a_lag_hide_the_mass(small, large):
     assert not room(small.structure, large.structure).same_mass
 
 
-@pytest.mark.parametrize("sensor", list(Sensor))
+@pytest.mark.parametrize("sensor", list(Quantity))
 def test_every_sensor_counts_alike(sensor):
     chains = [
-        Chain(2, damped=True, sensor=sensor),
-        Chain(3, 1, 1, 2, 1, 3, sensor=sensor, damped=True),
+        Chain(2, damped=True, quantity=sensor),
+        Chain(3, 1, 1, 2, 1, 3, quantity=sensor, damped=True),
     ]
     assert room(*(c.structure for c in chains)) == Room(6, 10, 3, True)
 

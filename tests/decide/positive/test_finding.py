@@ -9,7 +9,7 @@ from itertools import combinations, pairwise, permutations
 import numpy as np
 import pytest
 
-from disting import Certainty, Chain, Family, InputError, Relation, Sensor, View, catalog
+from disting import Certainty, Chain, Family, InputError, Quantity, Relation, View, catalog
 from disting.decide.positive import confirms, positive_finding
 from disting.decide.positive.obstacles import obstacle, only_rows_sum_to_zero
 from disting.decide.positive.points import equivalent, random_point, read
@@ -301,7 +301,7 @@ def test_bad_input():
     for other in (
         Chain(4, damped=False),
         Chain(3, damped=True),
-        Chain(3, sensor=Sensor.POSITION, damped=False),
+        Chain(3, quantity=Quantity.POSITION, damped=False),
         Chain(3, dead_time=True, damped=False),
     ):
         with pytest.raises(InputError):

@@ -24,7 +24,7 @@ def chains(draw: st.DrawFn) -> Chain:
     sensor = draw(st.sampled_from(["position", "velocity", "acceleration"]))
     ports = (draw(low), draw(high), draw(low), draw(high))
     flags = {"damped": draw(st.booleans()), "lag": draw(st.booleans())}
-    return Chain(n, gap, *ports, sensor=sensor, ground_dampers=dampers, **flags)
+    return Chain(n, gap, *ports, quantity=sensor, ground_dampers=dampers, **flags)
 
 
 def value(polynomial: fmpz_mpoly, values: dict[str, Fraction]) -> Fraction:

@@ -14,7 +14,7 @@ from disting.report.fit import waterfall
 from disting.report.fit.style import FigureFiles
 from disting.statistics.practical import Thresholds
 
-DRIVE = Chain(2, damped=True, ground_dampers=(2,), sensor="acceleration")  # type: ignore[arg-type]
+DRIVE = Chain(2, damped=True, ground_dampers=(2,), quantity="acceleration")  # type: ignore[arg-type]
 # antiresonance 33.8 Hz, resonance 58.5 Hz
 VALUES = {"m1": 0.01, "m2": 0.02, "k12": 900.0, "d12": 0.12, "b2": 0.2}
 HOSTILE = """</script><img src=x onerror='alert(1)'>&amp;{{ 7*7 }} $x^2$ <!-- --"""
@@ -28,7 +28,7 @@ def response(start: int, step: int, seed: int, drive: Chain = DRIVE) -> Frequenc
     measured = predict(drive, values, omega) * (1 + noise[0] + 1j * noise[1])
     coherence = np.full(len(omega), 0.998)
     signals = (("torque", "Nm"), (HOSTILE, "rad/s^2"))
-    return FrequencyResponse(omega, measured, None, coherence, DRIVE.sensor, *signals, HOSTILE)  # type: ignore[arg-type]
+    return FrequencyResponse(omega, measured, None, coherence, DRIVE.quantity, *signals, HOSTILE)  # type: ignore[arg-type]
 
 
 @pytest.fixture(scope="session")

@@ -29,7 +29,7 @@ def cell(seed=2):
     noise = np.random.default_rng(seed).normal(size=(2, 30)) * 0.04
     impedance = 10 + 1 / (1 / 80 + 2e-5 * (1j * OMEGA) ** 0.93)
     measured = impedance * (1 + noise[0] + 1j * noise[1])
-    return FrequencyResponse(OMEGA, measured, sensor="position", is_impedance=True)
+    return FrequencyResponse(OMEGA, measured, quantity="position", is_impedance=True)
 
 
 @pytest.fixture(scope="module")
@@ -112,7 +112,7 @@ def test_a_machine_has_no_nyquist_diagram(tmp_path):
     p = np.array([0.3, 500.0, 1.0, 0.5])
     G = NetworkPlant(model, omega).response(p)
     noise = np.random.default_rng(1).normal(size=(2, 40)) * 1e-2
-    data = FrequencyResponse(omega, G * (1 + noise[0] + 1j * noise[1]), sensor="position")
+    data = FrequencyResponse(omega, G * (1 + noise[0] + 1j * noise[1]), quantity="position")
     write_network_report(fit_networks(data, [model]), tmp_path)
     assert not (tmp_path / "nyquist.svg").exists() and (tmp_path / "bode.svg").exists()
 

@@ -60,7 +60,7 @@ def multisine() -> Selection:
     omega = 2 * np.pi * np.arange(1, len(whole)) * RATE / PERIOD
     whole[1:] *= predict(DRIVE, VALUES, omega)
     y = np.tile(np.fft.irfft(whole, PERIOD), 5) + np.random.default_rng(2).normal(size=5 * PERIOD)
-    record = TimeSeries(np.tile(u, 5), y, RATE, sensor="acceleration")  # type: ignore[arg-type]
+    record = TimeSeries(np.tile(u, 5), y, RATE, quantity="acceleration")  # type: ignore[arg-type]
     return select(record.response(), [DRIVE])
 
 

@@ -88,7 +88,9 @@ def test_units_follow_from_those_of_the_data(
     sensor: str, given: str, shown: str, units: list[str]
 ) -> None:
     signals = {"input": ("", given), "output": ("", shown)}
-    measured = FrequencyResponse(np.arange(1.0, 9.0), np.ones(8, complex), sensor=sensor, **signals)  # type: ignore[arg-type]
+    measured = FrequencyResponse(
+        np.arange(1.0, 9.0), np.ones(8, complex), quantity=sensor, **signals
+    )  # type: ignore[arg-type]
     assert [unit_of(kind, measured) for kind in "mkd"] == units
     assert unit_of("T", measured) == "s"
 
