@@ -7,10 +7,11 @@ from typing import ClassVar
 from disting.algebra.certainty import full_text
 from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.transfer import is_renaming
-from disting.conditions.side import Of, Side, View
+from disting.conditions.side import Side, View
 from disting.evidence.conditions import Renaming
 from disting.model.chain import Chain, Premise, Structure
 from disting.model.minors import embeddings
+from disting.model.question import Of
 from disting.model.symmetry import Form, between, canonical
 
 

@@ -6,7 +6,6 @@ deciders that are asked about it (`disting.decide`).
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 from functools import cached_property
 from typing import Any, ClassVar, Generic, Self, TypeVar
 
@@ -17,20 +16,12 @@ from disting.behaviour.sample import Representation
 from disting.evidence.conditions import Renaming
 from disting.model.chain import Chain, Premise, Structure
 from disting.model.protocol import Columns, Model
-from disting.model.question import Answerer, Models, Question, Settings, compute
+from disting.model.question import Answerer, Models, Of, Question, Settings, compute
 
 Ask = Callable[[Question[Any], Sequence[Models]], None]
 """Has a question answered for many models or pairs at once."""
 T = TypeVar("T")
 V = TypeVar("V", bound="View", covariant=True)
-
-
-class Of(StrEnum):
-    """The kind of models that a table of deciders is for."""
-
-    CHAINS = "chains"
-    MEASURED = "chains under several experiments"
-    NETWORKS = "networks and other models"
 
 
 class View(ABC):

@@ -10,9 +10,9 @@ from enum import StrEnum
 from importlib import import_module
 from typing import Any, Protocol, TypeVar
 
-from disting.conditions.side import Of as Of
 from disting.evidence.decision import Theorem
 from disting.model.presentation import summary
+from disting.model.question import Of as Of
 
 
 class Asked(StrEnum):

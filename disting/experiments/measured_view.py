@@ -11,11 +11,12 @@ differ, so it cannot be measured as chains are, and what it would say the exact 
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from disting.conditions.side import Of, Side, View
+from disting.conditions.side import Side, View
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.inclusion import numbering
 from disting.experiments.machine_model import MachineModel, is_renaming
 from disting.model.chain import Premise
+from disting.model.question import Of
 
 
 @dataclass(frozen=True)

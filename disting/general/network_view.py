@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from disting.algebra.certainty import Certainty, full_text, joint_safety
 from disting.conditions.rule import Finding, Outcome
-from disting.conditions.side import Of, Side, View
+from disting.conditions.side import Side, View
 from disting.conditions.sufficient import condition_6
 from disting.evidence.conditions import Renaming
 from disting.general.any_model import (
@@ -31,6 +31,7 @@ from disting.general.network_model import NetworkModel, behaviour_of
 from disting.general.readings import profile_text, readings
 from disting.model.chain import Chain, Premise
 from disting.model.presentation import GENERIC
+from disting.model.question import Of
 from disting.network.chains import RenamedChain
 
 OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"

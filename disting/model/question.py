@@ -10,6 +10,14 @@ from functools import partial
 from typing import Any, Generic, Protocol, Self, TypeVar
 
 
+class Of(StrEnum):
+    """The kind of models that a table of deciders is for."""
+
+    CHAINS = "chains"
+    MEASURED = "chains under several experiments"
+    NETWORKS = "networks and other models"
+
+
 class Domain(StrEnum):
     """Admissible parameter values. What is said of complex values is said of generic ones.
 

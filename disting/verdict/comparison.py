@@ -17,7 +17,7 @@ from disting.algebra.certainty import Certainty
 from disting.algebra.determinants import OutOfTimeError
 from disting.behaviour.transfer import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
-from disting.conditions.side import AnySide, Of
+from disting.conditions.side import AnySide
 from disting.decide.identifiability import Identifiability, ParameterIdentifiability
 from disting.errors import InputError, of_type, short
 from disting.evidence.conditions import Ranks
@@ -26,7 +26,7 @@ from disting.experiments.measured_network import measure
 from disting.general import AnyModel, MatrixModel, Model
 from disting.model.chain import Chain, Quantity, Structure, as_quantity
 from disting.model.names import read_together
-from disting.model.question import Domain
+from disting.model.question import Domain, Of
 from disting.renamed import renamed
 from disting.verdict.cascade import steps
 from disting.verdict.decisions import Decisions
