@@ -52,7 +52,6 @@ PHRASES = (
 
 NOT_YET = frozenset(
     {
-        "circuits.md",
         "command-line.md",
         "decisions.md",
         "development.md",
