@@ -55,8 +55,6 @@ NOT_YET = frozenset(
         "command-line.md",
         "decisions.md",
         "development.md",
-        "fit-details.md",
-        "fit.md",
         "machines.md",
         "measured-data.md",
         "next.md",
