@@ -56,7 +56,6 @@ NOT_YET = frozenset(
         "decisions.md",
         "development.md",
         "machines.md",
-        "measured-data.md",
         "next.md",
     }
 )
