@@ -52,7 +52,6 @@ PHRASES = (
 
 NOT_YET = frozenset(
     {
-        "command-line.md",
         "decisions.md",
         "development.md",
     }
