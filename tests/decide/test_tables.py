@@ -89,7 +89,7 @@ def test_no_two_rows_of_a_table_have_one_name():
 
 
 def test_the_guide_shows_the_tables():
-    page = Path(disting.__file__).parent / "guide" / "development.md"
+    page = Path(disting.__file__).parent / "guide" / "deciders.md"
     assert as_markdown() in page.read_text(encoding="utf-8")
 
 

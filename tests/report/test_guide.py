@@ -23,12 +23,14 @@ from disting.network.notation import network_of, notations_of
 from disting.report import write_report
 from disting.report.guide import Part, guide, guide_files, guide_parts, guide_texts, notebook_page
 from disting.report.markdown import GuidePage, guide_page
+from disting.report.search import search_script
 from tests.cli.process import called
 from tests.report.barriers import barriers
 from tests.report.guide_blocks import FOLDER, ROOT, TEXTS, blocks, fences
 from tests.report.outline import Outline
 
 PLACEHOLDER = re.compile(r"[\[\]|]|\.\.|\b[A-Z]+\b")
+HIGHEST = 8000  # pixels of a page, 1280 wide: a longer one is split by subject
 MARKUP = """<script>alert(1)</script> <b onclick="x()">bold</b> [a](javascript:alert(1)) ![i](http://a.b/c.png) {{ 7*7 }} &lt;"""
 
 
@@ -40,6 +42,12 @@ def parts() -> tuple[Part, ...]:
 @cache
 def written() -> dict[str, str]:
     return {name: content.decode() for name, content in guide_files(parts())}
+
+
+def notebooks() -> dict[str, str]:
+    """Texts of the shipped notebooks by name."""
+    shipped = ROOT / "reports" / "notebooks"
+    return {path.stem: path.read_text("utf-8") for path in sorted(shipped.glob("*.ipynb"))}
 
 
 def shown() -> list[tuple[str, str, bool]]:
@@ -196,6 +204,19 @@ def test_equal_headings_have_anchors_of_their_own_and_a_page_has_a_title() -> No
 
 
 @pytest.mark.full
+def test_no_page_is_higher_than_a_reader_scrolls(tab, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    (tmp_path / "guide").mkdir()
+    for name, content in guide_files(guide(parser(), notebooks())):
+        (tmp_path / name).write_bytes(content)
+    found = {}
+    for page in sorted(tmp_path.glob("guide/*.html")):
+        tab.goto(page.as_uri())
+        found[page.stem] = tab.evaluate("document.documentElement.scrollHeight")
+    assert len(found) > 50
+    assert {name: high for name, high in found.items() if high > HIGHEST} == {}
+
+
+@pytest.mark.full
 def test_every_command_shown_is_accepted() -> None:
     assert len(shown()) > 40
     for name, command, whole in shown():
@@ -257,6 +278,29 @@ def where(tab, text: str) -> list[str]:  # type: ignore[no-untyped-def]
     return [item.inner_text() for item in tab.locator("#finds li .where").all()]
 
 
+WORDS = {
+    "install": "start",
+    "rpm": "quantities",
+    "simulink": "fit-details",
+    "belt": "gallery",
+    "backlash": "not-for",
+    "encoder": "gallery",
+    "unit": "quantities",
+}
+"""Words that people search for, and a page that has the answer."""
+
+
+@pytest.mark.parametrize(("word", "page"), WORDS.items())
+def test_the_search_knows_the_words_of_engineers(word: str, page: str) -> None:
+    data = json.loads(re.search(r"const DATA = (.*);\n", search_script(parts(), {}))[1])  # type: ignore[index]
+    found = {
+        data["pages"][place][0]
+        for place, _, title, words in data["sections"]
+        if word in f"{title} {words}".lower()
+    }
+    assert f"guide/{page}.html" in found
+
+
 @pytest.mark.full
 def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("models/3-damped/4.html")
@@ -280,10 +324,14 @@ def test_one_search_finds_sections_names_commands_terms_and_models(visit) -> Non
         "belt": "Belt axis: where does it rub?",
         "backlash": "backlash",
         "encoder": "Two encoders",
+        "install": "Install",
+        "simulink": "In MATLAB and Simulink",
+        "unit": "Units",
     }
     assert {word: found(tab, word)[0] for word in first} == first
     for word in ("friction", "noise", "sensor", "unit"):  # names of the reference too
         assert not [p for p in where(tab, word)[:4] if p.startswith(("Python: ", "All commands"))]
+    assert "Quantities, units and signs" in where(tab, "rpm")[:4]
     assert "disting plan" in found(tab, "plan")[:3]
     assert where(tab, "Friction")[0] == "Python: disting.simulation"
     assert "When not to use it" in where(tab, "backlash") and "Read measured data" in where(
@@ -327,11 +375,10 @@ def test_every_address_that_the_search_knows_is_there(site: Path) -> None:
 
 
 def test_executed_notebooks_are_pages_with_their_outputs(tmp_path: Path) -> None:
-    shipped = ROOT / "reports" / "notebooks"
-    notebooks = {path.stem: path.read_text("utf-8") for path in sorted(shipped.glob("*.ipynb"))}
-    found = {part.title: part for part in guide(notebooks=notebooks)}["Notebooks"]
-    assert [page.name for page in found.pages] == [f"notebook-{name}" for name in notebooks]
-    for page, text in zip(found.pages, notebooks.values(), strict=True):
+    shipped = notebooks()
+    found = {part.title: part for part in guide(notebooks=shipped)}["Notebooks"]
+    assert [page.name for page in found.pages] == [f"notebook-{name}" for name in shipped]
+    for page, text in zip(found.pages, shipped.values(), strict=True):
         outputs = sum(bool(cell.get("outputs")) for cell in json.loads(text)["cells"])
         assert page.body.count('<div class="output"') == outputs > 5
         assert page.body.count("<pre") >= outputs and "<svg" in page.body

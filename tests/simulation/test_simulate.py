@@ -303,7 +303,7 @@ def held_error(rate, hertz):
 
 
 def test_a_held_input_makes_the_errors_that_the_guide_tells():
-    guide = files("disting").joinpath("guide", "measured-data.md").read_text(encoding="utf-8")
+    guide = files("disting").joinpath("guide", "time-records.md").read_text(encoding="utf-8")
     rows = re.findall(r"\| ([\d.]+) f_s \| ([\d.]+) % \| ([\d.]+) % \|", guide)
     assert len(rows) == 5
     lines = np.linspace(0.01, 0.45, 441)

@@ -21,7 +21,7 @@
     });
   };
   // how well an entry answers: its title before its words, a beginning before a middle, a short title before a long one, the guide before the reference
-  const REFERENCE = /^guide\/(?:python-|commands|development)/, BEHIND = 95;
+  const REFERENCE = /^guide\/(?:python-|commands|command-summary|deciders|development)/, BEHIND = 95;
   const NAME = /[A-Z_.]|--|disting/, FIRST = 5; // friction is a word, of which the guide tells first; Friction is a name
   const weight = (entry, query, words) => {
     if (!words.every((word) => entry.text.includes(word))) return 0;
