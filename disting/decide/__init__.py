@@ -785,14 +785,14 @@ TABLES = (
     POSITIVE_NETWORKS,
     CLOSURE_NETWORKS,
 )
+_ASKED = {(table.asked, table.of): table for table in reversed(TABLES) if table.is_asked}
 OF_VERDICTS = (Asked.SAME, Asked.REAL, Asked.POSITIVE)
 OF_INCLUSIONS = (Asked.CLOSURE, Asked.IMAGE, Asked.BOTH)
 
 
 def table_of(asked: Asked, of: Of) -> Table | None:
     """Return the table by which two sides of a kind are asked a question, None if there is none."""
-    key = asked, of
-    return next((t for t in TABLES if (t.asked, t.of) == key and t.is_asked), None)
+    return _ASKED.get((asked, of))
 
 
 def deciders_of(of: Of, asked: tuple[Asked, ...] = OF_VERDICTS) -> tuple[Decider, ...]:
