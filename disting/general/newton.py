@@ -95,7 +95,7 @@ def equivalent_at(
     if not (isinstance(model, Model) and isinstance(other, Model) and are_alike(model, other)):
         return None
     system = _system(model, values, other)
-    return system and _certified(system, near)
+    return None if system is None else _certified(system, near)
 
 
 def are_alike(model: Model, other: Model) -> bool:
