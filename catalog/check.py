@@ -17,7 +17,6 @@ below 2^12, and p is above 2^60: less than 2^-48 for one record.
 import ast
 import hashlib
 import json
-import math
 import re
 import sys
 import time
@@ -823,9 +822,9 @@ def explicit(pair, e):
     return searched("formulas put in; that they are positive, or the cases all, not repeated")
 
 
-def float_value(m, values, s):
-    """H at a positive s, in floating point."""
-    a = [[0.0] * (m.nodes + 1) for _ in range(m.nodes)]
+def exact_value(m, values, s):
+    """H at a positive s, of fractions: exact but for powers of an exponent."""
+    a = [[Fraction(0)] * (m.nodes + 1) for _ in range(m.nodes)]
     for e in m.elements:
         x = values[e.name]
         x = s**e.power * (1 / x if e.inverse else x)
@@ -834,71 +833,36 @@ def float_value(m, values, s):
             a[i][j] += sign * x
     for i, row in enumerate(a):
         row[i] += m.fixed * s
-        row[-1] = float((i + 1 == m.force[0]) - (i + 1 == m.force[1]))
-    x = [0.0, *float_solved(a)]
-    return x[m.sensor[0]] - x[m.sensor[1]]
-
-
-def float_solved(a):
-    """The solution of equations with their right side as last column, in floating point."""
-    a, n = list(a), len(a)
-    for i in range(n):
-        pivot = max(range(i, n), key=lambda k: abs(a[k][i]))
+        row[-1] += (i + 1 == m.force[0]) - (i + 1 == m.force[1])
+    for i in range(m.nodes):
+        pivot = max(range(i, m.nodes), key=lambda k: abs(a[k][i]))
         a[i], a[pivot] = a[pivot], a[i]
-        for k in range(n):
+        for k in range(m.nodes):
             if k != i and a[k][i]:
                 f = a[k][i] / a[i][i]
                 a[k] = [x - f * y for x, y in zip(a[k], a[i])]
-    return [a[i][-1] / a[i][i] for i in range(n)]
+    x = [0, *(row[-1] / row[i] for i, row in enumerate(a))]
+    return x[m.sensor[0]] - x[m.sensor[1]]
 
 
 @cache
-def refined(given, x, other, y):
-    """How far from its function the stored equivalent is (relative, at places on the positive
-    axis), and how far the end of a damped Newton iteration in logarithms, which keeps values
-    positive.
-    """
-    x, y = dict(x), dict(y)
-    places_ = [0.21 * 1.6**k for k in range(len(y) + 4)]
-    wanted = [float_value(given, x, s) for s in places_]
-    top, names = max(map(abs, wanted)), sorted(y)
+def misfit(given, x, other, y):
+    """The largest relative difference of two functions at places on the positive axis."""
+    places_ = [Fraction(21, 100) * Fraction(8, 5) ** k for k in range(len(y) + 4)]
+    wanted = [exact_value(given, dict(x), s) for s in places_]
+    found = [exact_value(other, dict(y), s) for s in places_]
+    return max(abs(float(b / a) - 1) for a, b in zip(wanted, found))
 
-    def residuals(v):
-        values = dict(zip(names, map(math.exp, v)))
-        found = [float_value(other, values, s) for s in places_]
-        return [(b - a) / (abs(a) + 1e-6 * top) for a, b in zip(wanted, found)]
 
-    v = [math.log(y[n]) for n in names]
-    r = residuals(v)
-    first, damping = max(map(abs, r)), 1e-6
-    if first < 1e-5:
-        return first, first
-    for _ in range(300):
-        size = sum(t * t for t in r)
-        if size < 1e-24:
-            break
-        rows = []
-        for i in range(len(v)):
-            moved = residuals([t + 1e-7 * (i == j) for j, t in enumerate(v)])
-            rows.append([(a - b) / 1e-7 for a, b in zip(moved, r)])
-        square = [[sum(map(times, a, b)) + damping * (a is b) for b in rows] for a in rows]
-        step = float_solved([[*line, -sum(map(times, a, r))] for line, a in zip(square, rows)])
-        trial = [a + max(-1.0, min(1.0, b)) for a, b in zip(v, step)]
-        new = residuals(trial)
-        if sum(t * t for t in new) < size:
-            v, r, damping = trial, new, max(damping / 10, 1e-15)
-        else:
-            damping *= 10
-    return first, max(map(abs, r))
+FITS = 1e-6  # relative: what a stored, rounded equivalent may be off by
 
 
 def witnesses(pair, e):
-    """At a stored point the other model has the stored, rounded equivalent: a Newton iteration from
-    there in floating point ends at a positive one. That another point has none is not repeated.
+    """At a stored point the other model has the stored, rounded equivalent: put in, it gives the
+    same function. That an exact one is near it, and that another point has none, is not repeated.
     """
     given, other = pair[:2] if e["with_left_given"] else pair[1::-1]
-    x = {n: float(Fraction(v)) for n, v in e["point_with"]}
-    y = {n: float(v) if "/" not in v else float(Fraction(v)) for n, v in e["equivalent"]}
+    x, y = ({n: Fraction(v) for n, v in e[k]} for k in ("point_with", "equivalent"))
     without = (pair.left if e["without_left_given"] else pair.right).names
     if [set(x), set(y), {n for n, _ in e["point_without"]}] != [
         set(m) for m in (given.names, other.names, without)
@@ -906,11 +870,9 @@ def witnesses(pair, e):
         return result(False, "points of other parameters")
     if e["domain"] != "positive" or min(*x.values(), *y.values()) <= 0:
         return result(False, "a point that is not positive")
-    before, after = refined(given, tuple(x.items()), other, tuple(y.items()))
-    if after > 1e-5 or before > 0.9:
-        return result(False, f"no equivalent is near the stored one ({before:.0e}, {after:.0e})")
-    if before > 1e-3:
-        return searched("an equivalent is near the stored one, which is off by more than 1e-3")
+    off = misfit(given, tuple(x.items()), other, tuple(y.items()))
+    if off > FITS:
+        return result(False, f"the stored equivalent gives a function that is off by {off:.0e}")
     return searched("the equivalent fits; that the other point has none is not repeated")
 
 

@@ -29,8 +29,9 @@ from disting.general.witnesses import (
     by_lists,
     by_numbers,
     common_point,
-    example,
     points,
+    with_equivalent,
+    without_equivalent,
     witnesses_of,
 )
 from disting.model.question import Domain
@@ -252,9 +253,11 @@ def _seen(
             the_values = this_way.having(values)
             count += bool(the_values)
             if the_values:
-                having.append(example(left_given, values, this_way.other, the_values))
+                having += with_equivalent(
+                    left_given, this_way.given, values, this_way.other, the_values
+                )
             elif not always and this_way.lacking(values):
-                lacking.append(example(left_given, values))
+                lacking.append(without_equivalent(left_given, values))
             if having and lacking:
                 return having[0], lacking[0], ""
         share = f"{count} of {count_of} random" if this_way.looked_at else "no"

@@ -20,6 +20,7 @@ from disting.model.presentation import summary
 from disting.model.question import Domain
 
 FIRST_BITS = 128
+DOUBLE = 56  # bits of a value from which a number of double precision is rounded
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +86,7 @@ def _certified(
     factor: fmpz_poly, reduced: list[fmpq_poly], parameters: tuple[str, ...]
 ) -> list[Equivalent]:
     """The zeros that belong to the roots of an irreducible factor, with as many bits as the
-    signs need.
+    signs and the rounded values need.
     """
     bits = FIRST_BITS
     while True:
@@ -102,8 +103,12 @@ def _certified(
 def _equivalent(
     factor: fmpz_poly, root: acb, reduced: list[fmpq_poly], parameters: tuple[str, ...]
 ) -> Equivalent | None:
-    """The zero at one root; None if a ball is too wide to tell a sign."""
+    """The zero at one root; None if a ball is too wide to tell a sign, or a value to double
+    precision.
+    """
     images = [evaluate(g, root) for g in reduced]
+    if not all(g.is_zero() or _is_narrow(x) for g, x in zip(reduced, images, strict=True)):
+        return None
     signs = [_sign(g, x) for g, x in zip(reduced, images, strict=True)]
     if root.imag.is_zero() and None in signs:
         return None
@@ -113,6 +118,10 @@ def _equivalent(
     return Equivalent(
         parameters, tuple(map(int, factor.coeffs())), box, exact, _domain(root, signs), numbers
     )
+
+
+def _is_narrow(image: acb) -> bool:
+    return bool(image.rel_accuracy_bits() >= DOUBLE)
 
 
 def evaluate(polynomial: fmpq_poly, at: acb) -> acb:

@@ -25,21 +25,19 @@ from disting.general import fibre_lists, newton
 from disting.general.admissible import are_one_ports
 from disting.general.any_model import is_renamed, is_writable, maps_of
 from disting.general.combination import excludes
-from disting.general.equivalent import spell
 from disting.general.inequalities import excludes_around, is_contradiction
 from disting.general.interlacing import sets_of
 from disting.general.matrix_model import AnyModel, Model
 from disting.general.model_inclusions import numberings
 from disting.general.network_model import behaviour_of
 from disting.general.replacement import same_in_units
+from disting.general.rounded import is_plain
 from disting.general.target import Values
 from disting.general.which_models import ways_by_all
 from disting.general.witnesses import solutions_at
 from disting.model.question import Domain, Settings
 
-# relative: so far from values of 6 digits are those found again on some curves, half of it in
-# families that are shipped
-ROUNDED = 1e-2
+ROUNDED = 1e-5  # relative: so far are values of 6 digits, at most, from those they stand for
 AGAIN = Limits(seconds=600.0, entries=40_000_000, safety=1)  # of a contradiction found again
 
 
@@ -125,7 +123,7 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
     names = [tuple(name for name, _ in point) for point in points]
     if [*map(sorted, names[:2])] != [sorted(first[0].parameters), sorted(second[0].parameters)]:
         return False
-    if names[2] != first[1].parameters or not all(map(_is_rounded, evidence.equivalent)):
+    if names[2] != first[1].parameters or not all(is_plain(x) for _, x in evidence.equivalent):
         return False
     try:
         with_, without, near = ({name: Fraction(x) for name, x in point} for point in points)
@@ -139,14 +137,6 @@ def confirms(evidence: Witnesses, left: AnyModel, right: AnyModel) -> bool:
         and _has(*first, with_, tuple(map(float, near.values())), domain)
         and _has_none(*second, without, domain)
     )
-
-
-def _is_rounded(value: tuple[str, str]) -> bool:
-    """Return True if a value is written as `spell` writes it."""
-    try:
-        return spell(float(value[1])) == value[1]
-    except ValueError:
-        return False
 
 
 def _has(
@@ -166,7 +156,7 @@ def _equivalents(
 ) -> Iterator[tuple[float, ...] | None]:
     """Yield what each search finds: first what is near values stated."""
     if domain is Domain.POSITIVE:
-        yield newton.find_equivalent(model, values, other, near)
+        yield newton.equivalent_at(model, values, other, near)
         yield fibre_lists.find_equivalent(model, values, other)
     for way in ways_by_all(model, other, domain):
         yield way.having(values)

@@ -44,6 +44,7 @@ MOST_TERMS = 1000  # of one model
 BITS = 128
 RADII = (1e-9, 1e-6, 1e-12)  # of the box, in times of the values
 STEPS = 4  # of Newton's method before a box is drawn
+CHOSEN = 6  # digits of values that may be chosen
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +82,20 @@ def find_equivalent(
     wanted = [float(g / system.wanted[0]) for g in system.wanted[1:]]
     searched = values_near(system.rows, wanted, system.unknowns)
     for start in chain([near] if near else [], searched):
-        equivalent = _certified(system, start)
+        equivalent = _certified(system, start, CHOSEN)
         if equivalent:
             return equivalent
     return None
+
+
+def equivalent_at(
+    model: AnyModel, values: Values, other: AnyModel, near: Sequence[float]
+) -> tuple[float, ...] | None:
+    """The same, next to these values: where some may be chosen, they are these."""
+    if not (isinstance(model, Model) and isinstance(other, Model) and are_alike(model, other)):
+        return None
+    system = _system(model, values, other)
+    return None if system is None else _certified(system, near)
 
 
 def are_alike(model: Model, other: Model) -> bool:
@@ -146,10 +157,15 @@ def _pivots(vectors: Sequence[Sequence[Fraction]]) -> list[int]:
     return [next(j for j in range(len(vectors)) if reduced[i, j]) for i in range(rank)]
 
 
-def _certified(system: System, start: Sequence[float]) -> tuple[float, ...] | None:
-    """The values, if the theorem shows an equivalent near them."""
+def _certified(system: System, start: Sequence[float], digits: int = 0) -> tuple[float, ...] | None:
+    """The values, if the theorem shows an equivalent near them. Those that are not solved for have
+    so many digits, if any number is given: then all follow from these, whatever last digits a
+    search left.
+    """
     with ctx.workprec(BITS):
         chosen = _chosen(system, start)
+        if digits:
+            start = [x if j in chosen else float(f"{x:.{digits}g}") for j, x in enumerate(start)]
         middle = _improved(system, [arb(x) for x in start], chosen)
         for radius in RADII if middle else ():
             box = [arb(x, radius * x) if j in chosen else x for j, x in enumerate(middle)]

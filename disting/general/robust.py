@@ -32,7 +32,7 @@ from disting.general.cases import Search
 from disting.general.elimination import Case
 from disting.general.orthant import value_at
 from disting.general.sections import Section
-from disting.general.signs_on_boxes import Box, Grid, is_empty, over_sum, root
+from disting.general.signs_on_boxes import Box, Grid, is_empty, narrowed, over_sum, root
 from disting.model.question import Domain
 
 UNKNOWNS = 2  # of a case at a point, at most
@@ -164,7 +164,10 @@ def _in_interval(
     interval = root(Box(equations, positive, nonzero))
     if interval is None:
         return None
-    full = fixed | {at: sign * (interval[0] + interval[1]) / 2}
+    low, high = interval
+    # signs need no more than the interval, values do
+    near = narrowed(equations[0], low, high) if equations else (low + high) / 2
+    full = fixed | {at: sign * near}
     values = full | {i: value_at(v.num, full) / value_at(v.den, full) for i, v in case.solved}
     return tuple(float(values[i]) for i in ring.unknowns)
 

@@ -24,6 +24,7 @@ Ends = tuple[tuple[int, int], tuple[int, int]]
 BOXES = 3000
 DEPTH = 24  # halvings of one axis
 NARROW = 12  # halvings before a root is named
+FINE = 96  # bits to which a root is known then, relative to it
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +107,30 @@ def root(start: Box) -> tuple[Fraction, Fraction] | None:
         if box.depth[0] < 2 * DEPTH:
             todo += halves(box, 1)
     return None
+
+
+def narrowed(polynomial: Grid, low: Fraction, high: Fraction) -> Fraction:
+    """A root of a polynomial in x between two points >= 0 where its signs are opposite, to `FINE`
+    bits.
+
+    >>> float(narrowed([[-2], [0], [1]], Fraction(1), Fraction(2)))  # x^2 = 2
+    1.4142135623730951
+    """
+    is_negative = _value(polynomial, low) < 0
+    while (high - low) * 2**FINE > low:
+        middle = (low + high) / 2
+        value = _value(polynomial, middle)
+        if not value:
+            return middle
+        low, high = (middle, high) if (value < 0) == is_negative else (low, middle)
+    return (low + high) / 2
+
+
+def _value(polynomial: Grid, x: Fraction) -> int:
+    """Of its sign, times a power of the denominator of x."""
+    degree = len(polynomial) - 1
+    powers = (x.numerator**i * x.denominator ** (degree - i) for i in range(degree + 1))
+    return sum(row[0] * power for row, power in zip(polynomial, powers, strict=True))
 
 
 def _changes(box: Box) -> bool:

@@ -6,7 +6,7 @@ Points are drawn to be looked at only; what is said of them is said of all point
 between coefficients (see `inequalities`) less; searches in rounded numbers find equivalents.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import islice
@@ -18,10 +18,10 @@ from disting.evidence.general import MANY, UNCOUNTED, Inequality, Witnesses
 from disting.evidence.kind import PointText
 from disting.general import fibre_lists, newton
 from disting.general.combination import excludes, is_tried
-from disting.general.equivalent import spell
 from disting.general.fibre import Extent, solve
 from disting.general.inequalities import contradiction, points_against
 from disting.general.matrix_model import AnyModel, Model
+from disting.general.rounded import written
 from disting.general.search import STARTS, common_points
 from disting.general.target import Values, fibre_equations
 from disting.model.question import Domain
@@ -71,9 +71,9 @@ def by_lists(left: AnyModel, right: AnyModel, seed: str, count: int) -> Witnesse
     for left_given, model, other, values in _in_turn(left, right, seed, count):
         the_values = fibre_lists.find_equivalent(model, values, other)
         if the_values:
-            having.append(example(left_given, values, other, the_values))
+            having += with_equivalent(left_given, model, values, other, the_values)
         elif fibre_lists.has_no_equivalent(model, values, other):
-            lacking.append(example(left_given, values))
+            lacking.append(without_equivalent(left_given, values))
         if having and lacking:
             return witnesses_of(left, right, having[0], lacking[0], Domain.POSITIVE)
     return None
@@ -96,7 +96,7 @@ def by_inequalities(
         values = next(points_against(model, other), None)
         having = values and common_point(left, right, starts)
         if values and having:
-            lacking = example(left_given, values)
+            lacking = without_equivalent(left_given, values)
             return witnesses_of(left, right, having, lacking, Domain.POSITIVE)
     return None
 
@@ -122,7 +122,7 @@ def by_numbers(
         if not is_tried(other) or newton.find_equivalent(model, values, other):
             continue
         if excludes(model, values, other, degree):
-            lacking = example(left_given, values)
+            lacking = without_equivalent(left_given, values)
             return witnesses_of(left, right, having, lacking, Domain.POSITIVE)
     return None
 
@@ -135,8 +135,9 @@ def common_point(left: AnyModel, right: AnyModel, starts: int = STARTS) -> Examp
     for left_given, values, near in common_points(left, right, starts):
         model, other = (left, right) if left_given else (right, left)
         the_values = newton.find_equivalent(model, values, other, near)
-        if the_values:
-            return example(left_given, values, other, the_values)
+        found = the_values and with_equivalent(left_given, model, values, other, the_values)
+        if found:
+            return found[0]
     return None
 
 
@@ -164,13 +165,20 @@ def solutions_at(model: AnyModel, other: AnyModel, point: PointText) -> int:
     )
 
 
-def example(
-    left_given: bool,
-    values: Values,
-    other: AnyModel | None = None,
-    equivalent: tuple[float, ...] = (),
-) -> Example:
-    """A point of the left model or the right one, with its rounded equivalent in the other one."""
-    names = other.parameters if other else ()
-    near = ((name, spell(x)) for name, x in zip(names, equivalent, strict=True))
-    return left_given, tuple((name, str(x)) for name, x in values.items()), tuple(near)
+def without_equivalent(left_given: bool, values: Values) -> Example:
+    """A point of the left model or the right one."""
+    return left_given, _text(values), ()
+
+
+def with_equivalent(
+    left_given: bool, model: AnyModel, values: Values, other: AnyModel, equivalent: Sequence[float]
+) -> list[Example]:
+    """The same with its equivalent in the other one; nothing where that cannot be written down with
+    digits that give the response.
+    """
+    near = written(model, values, other, equivalent)
+    return [] if near is None else [(left_given, _text(values), near)]
+
+
+def _text(values: Values) -> PointText:
+    return tuple((name, str(x)) for name, x in values.items())

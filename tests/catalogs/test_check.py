@@ -188,6 +188,7 @@ def test_witnesses_that_do_not_fit_are_refused(check):
                 {"with_left_given": not e["with_left_given"]},
                 {"equivalent": [[n, "-1"] for n, _ in e["equivalent"]]},
                 {"equivalent": [[n, "1e-9"] for n, _ in e["equivalent"]]},
+                {"equivalent": [[n, f"{float(x) * 1.00001}"] for n, x in e["equivalent"]]},
                 {"point_with": [[name, "none"], *rest]}):  # fmt: skip
         assert check.evidence(pair, e | lie).status == check.WRONG, lie
 

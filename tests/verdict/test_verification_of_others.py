@@ -195,7 +195,7 @@ def test_every_altered_leaf_is_found(name: str) -> None:
         ("general: solved", ""),
         ("general: no equivalent", ""),
         ("general: explicit", ""),
-        ("general: witnesses", "equivalent"),  # looked at to a part in a hundred
+        ("general: witnesses", "equivalent"),  # to a part in 100,000
     ],
 )
 def test_who_alters_evidence_and_writes_all_that_is_derived_anew_is_found_out(
