@@ -69,7 +69,10 @@ WORDS = [
     ((*DEMO, "--profiles"), "--out"),
     ((*DEMO, "--site", str(REPORTS)), "--out"),
     ((*DEMO, "--site", "no/such"), "holds no pages that 'disting report' wrote"),
-    ((*DEMO, "--fix", "zz=1"), "no candidate has a parameter zz; their parameters are T1, Td, b1, m1"),
+    (
+        (*DEMO, "--fix", "zz=1"),
+        "no candidate has a parameter zz; their parameters are T1, Td, b1, m1",
+    ),
     ((*DEMO, "--bound", "zz=1..2"), "no candidate has a parameter zz"),
     ((*DEMO, "--thresholds", "30,nan,20"), "all positive"),
     (("fit", "--demo", "--masses", "3-1"), "are written like 3, 1-4 or 1,3"),
