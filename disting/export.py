@@ -78,7 +78,7 @@ def number_of(value: Any, least: float = -HUGE, most: float = HUGE) -> float:
 
 
 def _no_model(reason: Exception) -> InputError:
-    return InputError(f"this is no fitted model: {short(reason)} is missing or wrong")
+    return InputError(f"this is not a fitted model: {short(reason)} is missing or wrong")
 
 
 def refuse_open_quantity(plain: Any, path: Path) -> None:

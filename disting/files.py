@@ -164,7 +164,7 @@ def unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         name = next((value for key, value in pairs if key == "name"), None)
         where = f"model {short(name)}: " if name is not None else ""
         doubled = next(key for key in keys if keys.count(key) > 1)
-        raise InputError(f"{where}{short(doubled)} is given twice; leave one of them away")
+        raise InputError(f"{where}{short(doubled)} is given twice; remove one of them")
     return entries
 
 

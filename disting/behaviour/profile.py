@@ -219,7 +219,7 @@ def _matroid(
         try:
             shape = matroid(search.jacobian, limit)
         except SearchTooLargeError as reason:
-            return NoMatroid(f"more than {limit:,} sets of coefficients to look at: {reason}"), 0
+            return NoMatroid(f"more than {limit:,} sets of coefficients to examine: {reason}"), 0
         statements = list(shape.dependences())
         claims += len(statements)
         if shape.rank == rank and not any(

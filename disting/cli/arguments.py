@@ -217,7 +217,7 @@ def add_json(
     parser: argparse.ArgumentParser | argparse._ArgumentGroup, what: str, *, alone: bool = False
 ) -> None:
     """--json FILE; `alone`: without a name, it is standard output."""
-    rest = "; - is standard output" + ", and so is no name" * alone
+    rest = "; - or no name is standard output" if alone else "; - is standard output"
     optional: dict[str, Any] = {"nargs": "?", "const": "-"} if alone else {}
     help_ = f"write {what} as JSON{rest}"
     parser.add_argument("--json", type=written_file, metavar="FILE", help=help_, **optional)
@@ -253,11 +253,11 @@ def add_deciding(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--conditions", type=conditions, metavar="LIST", help=text)
     text = (
-        "generic parameters that the verdict is about (default: positive; complex, as in the paper,"
-        " where conditions or a representation are named)"
+        "parameters for which the verdict holds (default: positive; complex, as in the paper, if"
+        " conditions or a representation are given)"
     )
     parser.add_argument("--domain", choices=DOMAINS, default="", help=text)
-    text = "prove by exact elimination what was computed at random points, where that ends in time"
+    text = "prove by exact elimination what was computed at random points, if it ends in time"
     parser.add_argument("--prove", action="store_true", help=text)
 
 
@@ -272,8 +272,8 @@ def add_also(parser: argparse.ArgumentParser) -> None:
 
 def add_notation(parser: argparse.ArgumentParser | argparse._ArgumentGroup) -> None:
     """--notation."""
-    text = "how a network is written, where its signs do not tell it"
-    parser.add_argument("--notation", choices=NOTATIONS, default="", help=text)
+    text = f"notation of the network, if its text does not show it: {', '.join(NOTATIONS)}"
+    parser.add_argument("--notation", choices=NOTATIONS, default="", metavar="NOTATION", help=text)
 
 
 def add_no_cache(parser: argparse.ArgumentParser) -> None:

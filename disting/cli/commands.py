@@ -17,7 +17,8 @@ class Command:
     """`text` says in a list of commands what `run` of its module does with the options; `add`
     declares its arguments, in the same module if no other one is named. Of a command with many
     options `brief` names the few lines that `--help` shows, beside them; the rest is behind
-    `--help-all`.
+    `--help-all`. `examples`: lines that work as they are, at the end of its help; FIT.json in them
+    is a file of a fit.
     """
 
     name: str
@@ -27,6 +28,7 @@ class Command:
     add: str = "add_arguments"
     arguments: str = ""
     brief: str = ""
+    examples: tuple[str, ...] = ()
 
     def work(self) -> Callable[[argparse.Namespace], int]:
         """Import the function that runs the command."""
@@ -62,7 +64,7 @@ class Group:
 
 CATALOG = Group(
     "catalog",
-    "build, settle or verify the catalogues",
+    "rebuild or verify the shipped verdicts (for maintainers)",
     "Precomputed catalogues.",
     (
         Command(
@@ -95,7 +97,7 @@ CATALOG = Group(
         ),
         Command(
             "next",
-            "compute what to measure next for all groups that one measurement cannot tell apart",
+            "compute what to measure next for all groups that one measurement cannot distinguish",
             "catalogs",
             "menus",
             "add_menus_arguments",
@@ -138,6 +140,7 @@ LOOK = Command(
     "look",
     add="add_look_arguments",
     arguments="fit_arguments",
+    examples=("disting look --demo", "disting look bench.csv --quantity velocity"),
 )
 FIT = Command(
     "fit",
@@ -148,9 +151,14 @@ FIT = Command(
 )
 PLAN = Command(
     "plan",
-    "how long to measure to tell two structures apart",
+    "how long to measure to distinguish two structures",
     "plan",
     arguments="plan_arguments",
+    examples=(
+        "disting plan 2:1+b1 2:1+b2 --set m1=0.01,m2=0.02,k12=500,d12=0.1,b1=0.05 --noise 0.02"
+        " --band 5..300",
+        "disting plan FIT.json",
+    ),
 )
 SCHEMA = Command(
     "schema",
@@ -163,23 +171,79 @@ SECTIONS: dict[str, tuple[Command | Group, ...]] = {
     "measure and fit": (
         LOOK,
         FIT,
-        Command("next", "which experiment tells apart structures that look the same", "next"),
+        Command(
+            "next",
+            "which experiment distinguishes structures with the same response",
+            "next",
+            examples=("disting next 3:1 3:11", "disting next FIT.json"),
+        ),
         PLAN,
-        Command("simulate", "simulate a measurement of a model with known values", "simulate"),
+        Command(
+            "simulate",
+            "simulate a measurement of a model with known values",
+            "simulate",
+            examples=(
+                "disting simulate 2:1+b1 --set m1=0.01,m2=0.02,k12=500,d12=0.1,b1=0.05"
+                " --output-noise 1e-6 --csv bench.csv",
+            ),
+        ),
     ),
     "models": (
-        Command("models", "list the models of one size, or your own models in a file", "models"),
-        Command("compare", "decide whether two models can be told apart", "compare"),
+        Command(
+            "models",
+            "list the models of one size, or your own models in a file",
+            "models",
+            examples=("disting models 3", "disting models 'R0-p(R1,C1)'"),
+        ),
+        Command(
+            "compare",
+            "decide whether two models can be distinguished",
+            "compare",
+            examples=(
+                "disting compare 3:1 3:11",
+                "disting compare 3:1 3:11 --also sensor=2",
+                "disting compare 'R0-p(R1,C1)' 'p(R0,R1-C1)'",
+            ),
+        ),
         Command(
             "equivalents",
             "find all parameters of other models with the same transfer function",
             "equivalents",
+            examples=(
+                "disting equivalents 3:1 --to 3:11 --undamped --set m1=1,m2=2,m3=3,k12=100,k23=70",
+                "disting equivalents 3:1 --to 3:11 --formulas",
+            ),
         ),
-        Command("verdicts", "decide all pairs of one size, several sizes, or a file", "verdicts"),
-        Command("verify", "check a verdict again from its evidence", "verify"),
-        Command("dampers", "decide between sets of ground dampers of one model", "dampers"),
-        Command("draw", "draw a model as SVG or PNG", "draw"),
-        Command("report", "write HTML pages, figures and tables", "report"),
+        Command(
+            "verdicts",
+            "decide all pairs of one size, several sizes, or a file",
+            "verdicts",
+            examples=("disting verdicts 3", "disting verdicts 3 --csv verdicts.csv"),
+        ),
+        Command(
+            "verify",
+            "check a verdict again from its evidence",
+            "verify",
+            examples=("disting verify 3:1 3:11",),
+        ),
+        Command(
+            "dampers",
+            "decide between sets of ground dampers of one model",
+            "dampers",
+            examples=("disting dampers 3:1",),
+        ),
+        Command(
+            "draw",
+            "draw a model as SVG or PNG",
+            "draw",
+            examples=("disting draw 3:4 --svg drawing.svg",),
+        ),
+        Command(
+            "report",
+            "write HTML pages, figures and tables",
+            "report",
+            examples=("disting report 3",),
+        ),
     ),
     "maintenance": (
         CATALOG,

@@ -181,7 +181,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_json(parser, "the verdict with all that 'disting verify' needs", alone=True)
     add_quantity(parser)
     add_deciding(parser)
-    text = "look only at models within this range of a parameter, of both models; may be repeated"
+    text = "range of a parameter of both models to examine; may be repeated"
     add_bounds(parser, text)
     add_notation(parser)
     add_no_cache(parser)

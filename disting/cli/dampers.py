@@ -48,7 +48,7 @@ MEANING = {
 # of a pair that is open over positive parameters and indistinguishable over complex ones
 COMPLEX_ONLY = "c"
 NOT_ASKED = (
-    "positive parameters are not asked here: 'disting compare' and 'disting dampers N:I' ask"
+    "positive parameters are not examined here: use 'disting compare' or 'disting dampers N:I'"
 )
 WIDTH = 80  # columns of a terminal
 FIXED = "\xa0"  # a space at which no line ends
@@ -69,8 +69,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--sets", choices=names, default=DamperSets.SINGLE.value, help=text)
     names = [Domain.POSITIVE.value, Domain.COMPLEX.value]
     text = (
-        "which parameters verdicts on one model are about (default: positive); those on a whole"
-        " family are about complex ones"
+        "parameters for which verdicts on one model hold (default: positive); those on a whole"
+        " family hold for complex ones"
     )
     parser.add_argument("--domain", choices=names, default="", help=text)
     parser.add_argument(
@@ -90,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     (chain,) = read_together([options.model], damped=is_damped(options))
     if extras_of(chain):
         raise InputError(
-            f"every set of dampers is asked: name the model without {extras_of(chain)}"
+            f"every set of dampers is examined: name the model without {extras_of(chain)}"
         )
     domain = Domain(options.domain or Domain.POSITIVE)
     with engine_for(options) as (engine, pool, progress):

@@ -36,15 +36,13 @@ from disting.verdict.sides import determinable, names_beside
 from disting.verdict.verdict_file import StoredVerdict, as_file, exact, has_more
 
 LONGER = "this pair takes longer than most; Ctrl-C stops it"
-LESS = "; less to do: --domain complex, which asks for complex values only"
+LESS = "; faster: --domain complex, which considers complex values only"
 
 
 def run(options: argparse.Namespace) -> int:
     """Explain the verdict on one pair."""
     if options.json and options.bound:
-        raise InputError(
-            "what holds within ranges is told in words only: leave --json or --bound away"
-        )
+        raise InputError("--json is not supported with --bound; remove one of them")
     sides = models_of((options.left, options.right), options)
     asked = query(options.conditions, View.EXACT, options.domain)
     if options.also:
@@ -147,8 +145,8 @@ def _within(
     unknown = sorted(limits.keys() - names.keys())
     if unknown:
         raise InputError(
-            f"no parameter of the two models is called {enumeration(unknown)};"
-            f" there are {enumeration(names)}"
+            f"no parameter of the two models is called {enumeration(unknown)}; their parameters"
+            f" are {enumeration(names)}"
         )
     left, right = chains
     of_left, of_right = ({n: limits[n] for n in c.parameters if n in limits} for c in chains)
@@ -205,9 +203,9 @@ def _every_way(
         return
     other = f"the other {right}" if left == right else right
     phrase = {
-        Answer.SURELY: "told apart, wherever the places are in {}",
-        Answer.NEVER: "not told apart, wherever the places are in {}",
-        Answer.DEPENDS: "told apart or not, depending on where the places are in {}",
+        Answer.SURELY: "distinguishable, wherever the places are in {}",
+        Answer.NEVER: "indistinguishable, wherever the places are in {}",
+        Answer.DEPENDS: "distinguishable or not, depending on where the places are in {}",
         Answer.UNKNOWN: "not known for all places in {}",
     }[placements.answer]
     yield f"{placements.answer.upper()}: {left} and {other} are {phrase.format(other)}"

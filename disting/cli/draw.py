@@ -30,7 +30,7 @@ def run(options: argparse.Namespace) -> int:
     from disting.report.scene import svg
 
     if not (options.svg or options.png):
-        raise InputError("say where the drawing goes: --svg FILE or --png FILE")
+        raise InputError("give a file for the drawing: --svg FILE or --png FILE")
     if options.png == "-":
         raise InputError("a picture as PNG goes to a file: name one")
     (model,) = models_of([options.model], options)

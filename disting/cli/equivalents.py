@@ -47,13 +47,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     _models(parser)
     text = (
         "values of all parameters of the given model, such as m1=1,m2=3/4,k12=1e3; taken exactly;"
-        " of a circuit they may stand in braces, such as R{R=20}"
+        " for a circuit they may be given in braces, such as R{R=20}"
     )
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
     text = (
-        f"list what keeps the response of this experiment too: {EXAMPLES}, one or several, at"
+        f"list only those that also keep the response of this experiment: {EXAMPLES}, one or"
+        f" several, at"
         " masses of the given model (3/2: mass 2 of the other one, else every one is tried); may be"
         " repeated"
     )
@@ -74,11 +75,11 @@ def _models(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("model", metavar="N:I|NETWORK|FILE.json:NAME", help=named)
     others = (
         "another structure, or all of M masses (M+b1: all with this damper to the ground, M+b*:"
-        " with any set of them); of a network another network; of a model in a file file.json:name,"
-        " or file.json: all that are there"
+        " with any set of them); for a network another network; for a model in a file"
+        " file.json:name, or file.json: all models of the file"
     )
     parser.add_argument("--to", default="", metavar="M:J|M|NETWORK|FILE", help=others)
-    text = "of a network: all networks of this family, such as circuits-5"
+    text = "for a network: all networks of this family, such as circuits-5"
     parser.add_argument("--family", default="", metavar="FAMILY", help=text)
 
 
@@ -89,7 +90,7 @@ def _forms(parser: argparse.ArgumentParser) -> None:
     form.add_argument(
         "--formulas",
         action="store_true",
-        help="print formulas for any values: rational ones, of networks also by square roots",
+        help="print formulas for any values: rational ones, for networks also with square roots",
     )
     form.add_argument("--latex", action="store_true", help="print formulas in LaTeX")
     form.add_argument(
@@ -100,7 +101,9 @@ def _forms(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the equivalents of a model, or formulas for them."""
     if not (options.to or options.family):
-        raise InputError("say among which: --to 3:11, --to 3, or of a network --family circuits-5")
+        raise InputError(
+            "name the structures to search: --to 3:11, --to 3, or of a network --family circuits-5"
+        )
     texts = (options.model, options.to)
     if options.notation or any(notations_of(text) or ".json" in text for text in texts):
         from disting.cli.model_equivalents import run as run_models
@@ -108,11 +111,11 @@ def run(options: argparse.Namespace) -> int:
         return run_models(options)
     if options.family or not options.to:
         raise InputError(
-            "--family belongs to networks; of a numbered chain say --to 3 or --to 3:11"
+            "--family is supported for networks only; for a numbered chain give --to 3 or --to 3:11"
         )
     if options.formulas or options.latex or options.sympy:
         if options.also:
-            raise InputError("--also asks for values, not for formulas: leave one of them away")
+            raise InputError("--also is not supported with formulas; remove one of them")
         (chain,) = read_together([options.model], damped=options.damped)
         print("\n".join(_formulas(chain, chains_of(options.to, chain), options)))
         return 0
@@ -250,8 +253,8 @@ def _closing(result: Equivalents) -> str:
         )
     elif others:
         said.append(
-            f"Among {among(chains)}, no other was found that does the same with positive values;"
-            " not all are excluded."
+            f"Among {among(chains)}, no other was found with the same response at positive"
+            " values; not all are excluded."
         )
     if own and twins:
         said.append(f"Other positive values of the same structure give the same {what} too.")

@@ -165,8 +165,8 @@ def _left(options: argparse.Namespace) -> "FitRecord | None":
     own = {word.partition("=")[0] for word in options.words} & CANDIDATES.keys()
     if own or options.damped is not None:
         raise InputError(
-            f"{options.left} names the candidates: leave"
-            f" {enumeration(sorted(own)) or '--damped and --undamped'} away"
+            f"{options.left} names the candidates: remove"
+            f" {enumeration(sorted(own)) or '--damped and --undamped'}"
         )
     from disting.planning.fit_file import named_by
 
@@ -215,8 +215,8 @@ def _candidates(
     unknown = [name for name, _ in (*options.fix, *options.bound) if name not in names]
     if unknown:
         raise InputError(
-            f"no candidate has a parameter {enumeration(unknown)};"
-            f" there are {enumeration(sorted(names))}"
+            f"no candidate has a parameter {enumeration(unknown)}; their parameters are"
+            f" {enumeration(sorted(names))}"
         )
     return chains
 

@@ -130,7 +130,7 @@ def _responses(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         "--experiment", action="append", default=[], metavar="FILE:CHANGE", help=text
     )
-    text = "of several responses: one for all, or each its own (default: shared)"
+    text = "of several responses: one for all, or one for each (default: shared)"
     group.add_argument("--dead-time", choices=("shared", "own"), default="shared", help=text)
     group.add_argument(
         "--demo", action="store_true", help="simulated data of a small drive instead of files"
@@ -141,7 +141,7 @@ def _reading(group: argparse._ArgumentGroup) -> None:
     """Add the options that select the columns and responses to read."""
     text = (
         "any column of the response, by header or number (default: the first response); a column"
-        " that belongs to none is taken as gain; all: they are repeats of one"
+        " without a partner is read as gain; all: the columns are repeats of one response"
     )
     group.add_argument("--column", metavar="HEADER", help=text)
     text = (
@@ -156,8 +156,8 @@ def _reading(group: argparse._ArgumentGroup) -> None:
         "--repeat", type=Path, action="append", default=[], metavar="FILE", help=text
     )
     text = (
-        "measurements, of three or more repeats or periods, that are not like the others: they are"
-        " named; drop leaves them out of the mean (default: keep)"
+        "outliers among three or more repeats or periods: named in any case; drop removes them"
+        " from the mean (default: keep)"
     )
     group.add_argument("--outliers", choices=("keep", "drop"), default="keep", help=text)
 
@@ -165,8 +165,8 @@ def _reading(group: argparse._ArgumentGroup) -> None:
 def _quantities(group: argparse._ArgumentGroup) -> None:
     """Add the options that give the meaning and units of the numbers in the files."""
     text = (
-        "what the sensor shows (default: what the file says, else acceleration; of a record in time"
-        " position)"
+        "what the sensor shows (default: as stated in the file, else acceleration; for a record"
+        " in time position)"
     )
     group.add_argument(
         "--quantity", type=quantity_word, choices=[s.value for s in Quantity], help=text
@@ -196,8 +196,8 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
     )
     group.add_argument("--hold", metavar="T", help=text)
     text = (
-        "sign of the sensor: +, - or auto, what fits better among small and large candidates; of"
-        " several --sign=+,- (default: +)"
+        "sign of the sensor: +, - or auto (the one that fits better); for several sensors"
+        " --sign=+,- (default: +)"
     )
     group.add_argument("--sign", type=signs, default="+", metavar="SIGN", help=text)
 
@@ -239,8 +239,9 @@ def _structures(group: argparse._ArgumentGroup) -> None:
     )
     _ports(group)
     text = (
-        "the structures that an earlier fit left, and what behaves as these do; places of further"
-        " responses are masses of the one that it selected, and every place of the others is tried"
+        "fit only the structures that an earlier fit left, and their equivalents; places of"
+        " further responses are masses of the structure that it selected, every place of the"
+        " others is tried"
     )
     group.add_argument("--left", type=Path, metavar="FIT.json", help=text)
     group.add_argument(
@@ -249,8 +250,8 @@ def _structures(group: argparse._ArgumentGroup) -> None:
         help="force, sensor and gap anywhere: every chain of these sizes",
     )
     text = (
-        "also each chain on an elastic base that is one more mass; the force acts, and the encoder"
-        " looks, between base and drive; without and with friction of the motor's bearings in it"
+        "also each chain on an elastic base, which is one more mass; force and encoder are"
+        " between base and drive; without and with friction of the motor's bearings"
     )
     group.add_argument("--base", action="store_true", help=text)
 
@@ -303,11 +304,11 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         "--case",
         type=int,
         choices=[1, 2, 3],
-        help="cost function of the paper (default: the likelihood of what the lines scatter by)",
+        help="cost function of the paper (default: likelihood from the scatter of the lines)",
     )
     text = (
-        "of the frequency lines; auto: by what each scatters, as far as that is known; none: all"
-        " alike (default: auto)"
+        "of the frequency lines; auto: by the scatter of each, if known; none: all equal"
+        " (default: auto)"
     )
     group.add_argument("--weights", choices=WEIGHTS, default="auto", help=text)
     text = "largest condition index, PII ratio and collinearity index (default: 30,1000,20)"
@@ -315,8 +316,8 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         "--thresholds", type=thresholds, default=THRESHOLDS, metavar="C,P,G", help=text
     )
     text = (
-        "what may be selected: what the data do not exclude, or of that what the paper's three"
-        " criteria admit (default: not-excluded)"
+        "what may be selected: structures that the data do not exclude, or only those of them"
+        " that meet the paper's three criteria (default: not-excluded)"
     )
     group.add_argument("--rule", choices=RULES, default=RULES[0], help=text)
     text = (
@@ -324,7 +325,7 @@ def _choices(group: argparse._ArgumentGroup) -> None:
         " (default: starts)"
     )
     group.add_argument("--optimiser", choices=("starts", "swarm"), default="starts", help=text)
-    group.add_argument("--seed", default="disting", help="of the few random starts")
+    group.add_argument("--seed", default="disting", help="seed of the random starts")
 
 
 def _control(group: argparse._ArgumentGroup) -> None:
@@ -351,8 +352,8 @@ def _output(group: argparse._ArgumentGroup) -> None:
         help="with --out: a profile of every parameter of the selected model",
     )
     text = (
-        "with --out: folder that 'disting report' wrote, to which the page links its structures"
-        " (default: if it lies beside)"
+        "with --out: folder written by 'disting report'; the page links its structures there"
+        " (default: the folder beside it)"
     )
     group.add_argument("--site", type=site_folder, metavar="DIR", help=text)
     add_json(group, "the selection")

@@ -104,7 +104,7 @@ def sensors(options: argparse.Namespace) -> list[str]:
 def check_source(options: argparse.Namespace, command: str = "fit") -> None:
     """Raise InputError where files and --demo are both given, or neither."""
     if options.demo and options.train:
-        raise InputError("--demo brings its own data: leave it, or the files, away")
+        raise InputError("--demo has its own data: remove it, or the files")
     if not options.demo and not options.train:
         raise InputError(
             f"a file with measured data is needed, such as disting {command} bench.csv; --demo"
@@ -113,11 +113,11 @@ def check_source(options: argparse.Namespace, command: str = "fit") -> None:
     own = options.test or options.read or options.column or options.quantity or options.hold
     if options.demo and (own or options.experiment or len(sensors(options)) > 1):
         raise InputError(
-            "--demo brings its own data: leave --test, --read, --column, --quantity, --hold,"
-            " --experiment and several sensors away"
+            "--demo has its own data: remove --test, --read, --column, --quantity, --hold,"
+            " --experiment and further sensors"
         )
     if options.repeat and len(options.train) > 1:
-        raise InputError("--repeat repeats one file: give the mean of each, or leave it away")
+        raise InputError("--repeat is for a single file: give the mean of each, or remove it")
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -130,7 +130,9 @@ def _check(options: argparse.Namespace) -> None:
             " --family, --gap, further sensors and ports such as 1:2"
         )
     if options.family and several:
-        raise InputError("--family moves the sensor: leave it away where several are fitted")
+        raise InputError(
+            "--family moves the sensor and is not supported with several sensors; remove it"
+        )
     if options.profiles and not options.out:
         raise InputError("--profiles draws into the page: name its folder with --out")
     if options.site and not options.out:
@@ -244,7 +246,7 @@ def _of_one(settings: dict[str, Any], which: int, count: int) -> dict[str, Any]:
     }
     for name, value in split.items():
         if name in OF_EACH and isinstance(value, tuple) and len(value) != count:
-            raise InputError(f"{name} is given for {len(value)} responses, there are {count}")
+            raise InputError(f"{name} is given for {len(value)} responses, but there are {count}")
     return {
         name: value[which] if name in OF_EACH and isinstance(value, tuple) else value
         for name, value in split.items()
@@ -257,9 +259,7 @@ def _begun(file: Path, settings: dict[str, Any], which: int) -> dict[str, Any]:
         return settings
     begin = beginnings(file, settings.get("columns"))
     if begin is None:
-        raise InputError(
-            f"{file.name}: say which response is that of each sensor, as --read output=a,b"
-        )
+        raise InputError(f"{file.name}: name the response of each sensor, as --read output=a,b")
     if which >= len(begin):
         raise InputError(
             f"{file.name} holds {plural(len(begin), 'response')}, for"

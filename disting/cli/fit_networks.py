@@ -82,8 +82,8 @@ def _beside_chains(networks: Sequence[Network], options: argparse.Namespace) -> 
     """Chains as machines, then the networks that are none of them; raises InputError."""
     if any(n.sort is not Sort.MACHINE or n.shape != (1, 1) for n in networks):
         raise InputError(
-            "--masses adds chains: these compete with machines of one force and one sensor, not"
-            " with circuits, compartments or several responses"
+            "--masses adds chains; it is supported with machines of one force and one sensor,"
+            " not with circuits, compartments or several responses"
         )
     if len(sensors(options)) > 1:
         raise InputError("chains and networks are compared by one response: name one --sensor")
@@ -116,7 +116,7 @@ def _networks(texts: Sequence[str], notation: str) -> list[Network]:
             models = listed_models(Path(text) if text.endswith(".json") else text)
             unknown = [m.name for m in models if m.network is None]
             if unknown:
-                raise InputError(f"{unknown[0]} is no network: describe it by its elements")
+                raise InputError(f"{unknown[0]} is not a network: describe it by its elements")
             networks += [replace(m.network, name=m.name) for m in models if m.network is not None]
         else:
             networks.append(network_of(text, notation))
@@ -133,7 +133,7 @@ def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[
     options.sensor = ",".join(str(k) for k in range(1, outputs * inputs + 1))
     circuits = {network.sort is Sort.CIRCUIT for network in networks}
     if len(circuits) > 1:
-        raise InputError("circuits show an impedance, machines a motion: fit them apart")
+        raise InputError("circuits show an impedance, machines a motion: fit them separately")
     is_circuit = circuits == {True}
     if is_circuit:
         options.quantity = options.quantity or Quantity.POSITION.value  # an impedance has none
@@ -160,7 +160,7 @@ def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[
     width = max(len(f.network.name) for f in selection.fits)
     yield f"{'network':{width}}  values  determined  chi2 per line"
     for f in selection.fits:
-        same = f"; never told from {enumeration(f.same, BAR)}" if f.same else ""
+        same = f"; always has the same response as {enumeration(f.same, BAR)}" if f.same else ""
         numbers = f"{len(f.values):6}  {f.rank:10}  {f.chi2:8.3g}"
         yield f"{f.network.name:{width}}  {numbers}  {standing(f)}{same}"
     best = selection.fits[0]

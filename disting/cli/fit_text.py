@@ -93,7 +93,7 @@ def _criteria(selection: Selection, folded: Folded) -> Iterator[str]:
     yield ""
     yield from _table((left or selection.candidates)[:SHOWN])
     cost = cost_in_words(selection.task.cost)
-    yield f"misfit J: {cost}; on data that the fit has not seen (J test) and on its own (J train)"
+    yield f"misfit J: {cost}; on data not used for the fit (J test) and on its own data (J train)"
     yield f"badly determined, the higher the worse: {columns(selection.thresholds)}"
 
 
@@ -209,11 +209,11 @@ def _beside(selection: Selection, line: Line) -> Iterator[str]:
     for twin in line.best.twins:
         values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
         free = f" (one of many sets of values, {twin.free_choices} free)" * (twin.free_choices > 0)
-        yield f"may as well be {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
+        yield f"equivalent to {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
     rest = [m for m in line.members if m is not line.best]
     same = fold_names(twin.name for m in rest for twin in m.twins)
     if same:
-        yield f"{', '.join(m.name for m in rest)} may as well be {_named(same)}"
+        yield f"{', '.join(m.name for m in rest)}, equivalent to {_named(same)}"
     more = {m.name for m in selection.containing}  # they are left whatever behaves the same
     unknown = fold_names(name for m in line.members for name in m.open if name not in more)
     if unknown:
@@ -230,8 +230,8 @@ def _relied_on(selection: Selection) -> Iterator[str]:
         yield ""
         only = hold(selection) and f", {hold(selection)},"
         yield (
-            f"what you may rely on{only} if the machine is one of these, or what may as well be one"
-            " of them (95 %; not looked at: larger ones that contain one, and those not decided):"
+            f"conclusions{only} that hold for every structure listed above and its equivalents"
+            " (95 %; not examined: larger structures that contain one, and undecided ones):"
         )
         yield from (f"  {statement.text}" for statement in selection.relied_on)
 
@@ -337,14 +337,14 @@ def _alternatives(selection: Selection) -> Iterator[str]:
     same = by_relation.get(Relation.INDISTINGUISHABLE, [])
     if same:
         yield (
-            "each of these gives the same response with other positive values, so no data with this"
-            " force and sensor can tell them apart:"
+            "each of these gives the same response with other positive values, so no data with"
+            " this force and sensor can distinguish them:"
         )
         yield from (f"  {name_of(chain)}" for chain in same)
     elif not selection.alternatives and not any(m.twins for m in selection.members[:1]):
         yield (
-            "no other candidate with as many masses gives the same response, special values aside:"
-            " better data can tell them apart"
+            "no other candidate with as many masses gives the same response, special values"
+            " aside: better data can distinguish them"
         )
     for relation, said in OTHERWISE.items():
         if relation in by_relation:

@@ -90,7 +90,7 @@ def _at_sensors(options: argparse.Namespace, places: Sequence[str]) -> Iterator[
     if not together and len(files) != count:
         raise InputError(
             f"{len(files)} files and {plural(count, 'sensor')}: name a place for each file, as"
-            " --sensor 1,2, or leave --sensor away to look at every file"
+            " --sensor 1,2, or remove --sensor to show every file"
         )
     for k, place in enumerate(places):
         name = f"sensor {place}" if count > 1 or options.experiment else ""

@@ -35,10 +35,7 @@ OPEN = (Relation.UNDECIDED, Relation.SOMETIMES)
 def run(options: argparse.Namespace) -> int:
     """Print the networks that are not told apart from one, with values where they are given."""
     if options.also:
-        raise InputError(
-            "of networks and models of a file values and formulas are listed, not experiments:"
-            " leave --also away"
-        )
+        raise InputError("--also is not supported with networks and models of a file; remove it")
     (asked,) = _named(options.model, options)
     listed = map(of_network, family_of(options.family).networks) if options.family else ()
     named = _named(options.to, options) if options.to else []
@@ -48,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
         others = named
     formulas = options.formulas or options.latex or options.sympy
     if formulas and options.values:
-        raise InputError("formulas are for any values: leave --set away, or ask for values alone")
+        raise InputError("formulas hold for any values: remove --set, or ask for values only")
     values = None if formulas else stated_values(options.model, options) or None
     with engine_for(options) as (engine, _, progress):
         if options.family:
@@ -87,7 +84,7 @@ def _counted(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:
     """Sentence with the number of the others that are equivalent."""
     same = [x for x in equivalents if x.verdict.relation is Relation.INDISTINGUISHABLE]
     return (
-        f"{text}: of {others} {len(same)} can do the same for all positive values,"
+        f"{text}: {len(same)} of {others} equivalent for all positive values,"
         f" {sum(x.verdict.relation is OPEN[1] for x in equivalents)} for some,"
         f" {sum(x.verdict.relation is OPEN[0] for x in equivalents)} undecided"
     )
@@ -96,7 +93,10 @@ def _counted(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:
 def _lines(equivalents: list[ModelEquivalent]) -> Iterator[str]:
     """Each with its verdict and, where values are given, its own."""
     for x in equivalents:
-        yield f"{x.model.name}  {x.verdict.in_words} ({x.verdict.rule or 'nothing settles it'})"
+        yield (
+            f"{x.model.name}  {x.verdict.in_words}"
+            f" ({x.verdict.rule or 'no theorem or search decides it'})"
+        )
         if x.exponents:
             yield f"  {', '.join(f'{name} = {value}' for name, value in sorted(x.exponents))}"
         if x.values is not None:
@@ -124,7 +124,7 @@ def _mark(options: argparse.Namespace) -> str:
 
 LONGEST = 16  # signs of a fraction; longer ones are rounded, and exact with --json
 EXTENTS = {
-    POSITIVE: "all positive ones, but for exchanges of branches that are alike",
+    POSITIVE: "all positive ones, except exchanges of identical branches",
     Extent.FAMILY: "and infinitely many more",
     Extent.UNKNOWN: "and perhaps more",
 }
@@ -168,7 +168,10 @@ def _formulas(
             if form.seen:
                 yield f"{mark}{form.seen}; for your values see --set"
             if form.chosen:
-                yield f"{mark}chosen, other numbers may do the same: {', '.join(form.chosen)}"
+                yield (
+                    f"{mark}chosen, other numbers may give the same response:"
+                    f" {', '.join(form.chosen)}"
+                )
             yield from (
                 f"{mark}{', '.join(names)}: one choice of infinitely many, what can be shared in"
                 " any proportion is shared equally"

@@ -35,15 +35,13 @@ def is_network(text: str, notation: str = "") -> bool:
 def models_of(texts: Sequence[str], options: argparse.Namespace) -> list[Chain | AnyModel]:
     """Models that the texts name: a chain, a network in a notation, a model file.json:name."""
     if options.also and (options.prove or getattr(options, "bound", ())):
-        raise InputError(
-            "with --also the verdict is on several experiments: leave --prove and --bound away"
-        )
+        raise InputError("--prove and --bound are not supported with --also; remove them")
     networks = {text: _network(text, options) for text in texts if FILE not in text}
     named = [text for text, network in networks.items() if network is None]
     if len(set(texts)) == len(set(named)):
         return [*read_together(texts, damped=options.damped, quantity=options.quantity)]
     if getattr(options, "bound", ()):
-        raise InputError("--bound belongs to numbered chains: leave it away")
+        raise InputError("--bound is supported for numbered chains only; remove it")
     if all(FILE in text for text in texts):
         from disting.cli.verdicts import refuse_chain_options
 
@@ -127,8 +125,8 @@ def _refuse_damping(options: argparse.Namespace) -> None:
     """Raises InputError for --damped and --undamped, with networks."""
     if options.damped is not None:
         raise InputError(
-            f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
-            " dampers itself"
+            f"{damping_option(options.damped)} is supported for numbered chains only: the text"
+            f" of a network has its dampers"
         )
 
 

@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
+from textwrap import fill
 
 from disting.behaviour.profile import Profile
 from disting.catalogs import catalog
@@ -45,6 +46,7 @@ NOT_ASKED = "·"
 MOST_LISTED = 25  # masses: 140 thousand models, in seconds
 MOST_TERMS = 200  # of a transfer function that is printed
 AT_ONCE = 7  # masses; 314 models take five seconds
+WIDTH = 78  # of help
 COLUMNS = ("model", "gap", "force", "sensor", "n/m", "free", "par", "rank", "sets", "drawing")
 
 
@@ -52,7 +54,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     text = (
         f"number of masses; or a file of models, or {LISTS}, or a network such as 'R0-p(R1,C1)':"
-        " what can be determined of each"
+        " which parameters of each can be determined"
     )
     metavar = "N|FILE.json|FAMILY|NETWORK"
     parser.add_argument("masses", type=size_list_or_text, metavar=metavar, help=text)
@@ -60,24 +62,28 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--identifiability",
         action="store_true",
-        help="say for each model which parameters can be determined",
+        help="show for each model which parameters can be determined",
     )
     text = (
-        f"say it of the models as they are and measured also like this: {EXAMPLES}, one or several;"
+        f"identifiability from the models as they are and also measured like this: {EXAMPLES},"
+        " one or several;"
         " may be repeated"
     )
     parser.add_argument("--also", action="append", default=[], metavar="EXPERIMENT", help=text)
-    text = f"say degrees and ranks of more than {AT_ONCE} masses too, which takes a minute or more"
+    text = (
+        f"show degrees and ranks for more than {AT_ONCE} masses too, which takes a minute or more"
+    )
     parser.add_argument("--ranks", action="store_true", help=text)
-    text = "parameters over which it is said (default: positive, those of a machine)"
+    text = "values for which identifiability holds (default: positive, those of a machine)"
     parser.add_argument("--domain", choices=DOMAINS, default=Domain.POSITIVE.value, help=text)
     add_notation(parser)
     add_work(parser)
-    kinds = "; ".join(f"{k.name}-{_numbers(k)}: {k.text}" for k in KINDS.values())
-    parser.epilog = (
-        f"families of networks: {kinds}; of machines with {DAMPED} behind it a damper beside every"
-        " spring; trees-4:17 is number 17 of its family, for all commands"
-    )
+    rows = (f"{k.name}-{_numbers(k)}: {k.text}" for k in KINDS.values())
+    lines = [fill(row, WIDTH, initial_indent="  ", subsequent_indent="    ") for row in rows]
+    more = f"{DAMPED} behind a family of machines: with a damper beside every spring"
+    number = "trees-4:17: number 17 of a family, in every command"
+    parser.epilog = "\n".join(["families of networks:", *lines, f"  {more}", f"  {number}"])
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
 
 
 def _numbers(kind: Kind) -> str:
@@ -128,12 +134,12 @@ def run(options: argparse.Namespace) -> int:
 
 def _explain(has_profiles: bool, has_sets: bool, several: bool, domain: Domain) -> None:
     """Print the meaning of the columns."""
-    print("force, sensor: what it acts or looks on, and against (0 the ground)")
-    said = "" if has_profiles else f"; {NOT_ASKED} not asked (--ranks asks)"
+    print("force, sensor: mass where it acts or measures, and its reference (0 the ground)")
+    said = "" if has_profiles else f"; {NOT_ASKED} not computed (--ranks)"
     print("n/m degrees of (25), free non-constant coefficients, par parameters,")
     print(f"rank determinable parameters{said}")
     said = "1 identifiable, ∞ not, ? not known" + (
-        "" if has_sets else f", {NOT_ASKED} not asked (--identifiability asks)"
+        "" if has_sets else f", {NOT_ASKED} not computed (--identifiability)"
     )
     where = " in all experiments" if several else ""
     print(f"sets {domain} parameter sets with the same behaviour{where}:\n     {said}")
@@ -142,7 +148,9 @@ def _explain(has_profiles: bool, has_sets: bool, several: bool, domain: Domain) 
 def _of_list(source: Listed, options: argparse.Namespace) -> int:
     """Tell what can be determined of the models of a list."""
     if options.also:
-        raise InputError("--also belongs to chains: a model of a list has no masses to name")
+        raise InputError(
+            "--also is supported for chains only: a model of a list has no masses to name"
+        )
     refuse_chain_options(options)
     models = listed_models(source)
     with engine_for(options) as (engine, pool, progress):
@@ -159,8 +167,8 @@ def _of_network(network: Network, options: argparse.Namespace) -> int:
     """Tell the transfer function of a network, what does not enter, what can be determined."""
     if options.damped is not None:
         raise InputError(
-            f"{damping_option(options.damped)} belongs to numbered chains: a network says its"
-            " dampers itself"
+            f"{damping_option(options.damped)} is supported for numbered chains only: the text"
+            f" of a network has its dampers"
         )
     model, also = of_network(network), map(_one_model, options.also)
     experiments = [Experiment(), *also] if options.also else []
@@ -170,7 +178,10 @@ def _of_network(network: Network, options: argparse.Namespace) -> int:
         )
     print(f"{model.name}  {in_letters(model, MOST_TERMS, '')}")
     if network.unseen:
-        print(f"what cannot be seen, as no way leads through it: {enumeration(network.unseen)}")
+        print(
+            "without effect on the response, as no path leads through it:"
+            f" {enumeration(network.unseen)}"
+        )
     for number, experiment in enumerate(experiments, 1):
         print(f"experiment {number}  {experiment.text}")
     print(identified.sentence)
@@ -212,7 +223,7 @@ def _one_model(text: str) -> Experiment:
     """The experiment of an option that names masses of one model; raises InputError."""
     parsed = parse_experiment(text)
     if parsed.places:
-        raise InputError(f"{text} names masses of two models: write {text.partition('/')[0]} alone")
+        raise InputError(f"{text} names masses of two models: write only {text.partition('/')[0]}")
     return parsed.experiment
 
 

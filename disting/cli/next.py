@@ -45,29 +45,29 @@ from disting.verdict.result import Query, Relation, View
 Named = tuple[str, Chain]
 Table = Iterable[Sequence[str]]
 DOMAIN = (
-    "decided over complex parameters: what differs there differs over positive ones too; it is not"
-    " known which {place} of one structure is which of another, so each is tried"
+    "decided over complex parameters: structures that differ there differ over positive ones"
+    " too; all ways of matching the {place} of two structures are tested"
 )
 
-BRIEF = "only menus with an experiment that is surely enough are shown; --json has them all"
+BRIEF = "only menus with a sufficient experiment are shown; --json has them all"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of the command."""
     text = (
         "structures (masses:number, as 'disting models' lists them; +b2, +lag, +delay as for"
-        " 'compare') that one measurement cannot tell apart; of one, all those that cannot be told"
-        ' from it; or networks, such as "R0-p(R1,C1)" or FILE.json:NAME; or a file of \'disting'
-        " fit --json': the structures that the fit left"
+        " 'compare') that one measurement cannot distinguish; for a single one, all those that"
+        " cannot be distinguished from it; or networks, such as 'R0-p(R1,C1)' or FILE.json:NAME; or"
+        " a file of 'disting fit --json': the structures that the fit left"
     )
     parser.add_argument("models", nargs="+", metavar="N:I|NETWORK|FIT.json", help=text)
     add_damped(parser)
     defaults = ",".join(f"{name}={cost:g}" for name, cost in COSTS.items())
     more = " and ".join(price for price in PRICES if price not in COSTS)
     text = (
-        "what the experiments cost, in any unit: a further sensor, a sensor or the force moved, a"
-        f" known inertia added, a mass locked; two cost their sum (default: {defaults}); {more} are"
-        " on the menu where their cost is named"
+        "costs of the experiments, in any unit: a further sensor, a sensor or the force moved, a"
+        " known inertia added, a mass locked; two experiments cost their sum (default:"
+        f" {defaults}); {more} are on the menu if their cost is given"
     )
     parser.add_argument("--cost", default="", metavar="LIST", help=text)
     text = "write every experiment at every pair of masses as CSV; - is standard output"
@@ -111,8 +111,9 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
     networks = [network for network in named if isinstance(network, Network)]
     if len(networks) < 2:
         raise InputError(
-            f"{enumeration(options.models)} is one network: name all that are to be told apart;"
-            " 'disting equivalents .. --family ..' finds those that behave alike"
+            f"{enumeration(options.models)} is one network: name all that are to be"
+            " distinguished; 'disting equivalents .. --family ..' finds those with the same"
+            " response"
         )
     names = [network.name for network in networks]
     with engine_for(options) as (engine, pool, progress):
@@ -181,9 +182,9 @@ def _told(advice: AnyMenu, words: Sequence[str] = (), *, brief: bool = False) ->
         f"  {name:{width}}  {_drawn(structure)}".rstrip()
         for name, structure in zip(advice.names, structures, strict=True)
     ]
-    head = f"{len(advice.names)} structures that the present measurement cannot tell apart:"
+    head = f"{len(advice.names)} structures that the present measurement cannot distinguish:"
     enough = anywhere(advice)
-    phrases = [f"what tells all of them apart: {enough}"] if enough else []
+    phrases = [f"what separates all of them: {enough}"] if enough else []
     lines = [head, *drawings, *words, *phrases]
     for structure, name in enumerate(advice.names):
         lines += ["", f"if it is {name}:"]
@@ -253,7 +254,10 @@ def _told_apart(sides: Sequence[AnySide], engine: Engine) -> str:
     for left, right in combinations(sides, 2):
         verdict = engine.verdict(left, right, Query(View.EXACT, inclusion=False))
         if verdict.relation is Relation.DISTINGUISHABLE:
-            return f"{left.name} and {right.name} are told apart by the present measurement already"
+            return (
+                f"{left.name} and {right.name} are distinguishable by the present measurement"
+                " already"
+            )
         if verdict.relation is Relation.UNDECIDED:
             raise InputError(f"{left.name} and {right.name} are undecided as they are measured now")
     return ""
@@ -268,14 +272,17 @@ def _all_like(name: str, damped: bool) -> list[Named] | str:
         raise InputError(
             f"groups are known of the catalogues of {SHIPPED_SIZES[0]} to {SHIPPED_SIZES[-1]}"
             f" masses, with dampers to the ground of {DAMPER_SIZES[0]} to {DAMPER_SIZES[-1]}, not"
-            f" for {enumeration([name])}: name all structures that are to be told apart"
+            f" for {enumeration([name])}: name all structures that are to be distinguished"
         )
     groups = _damper_groups(n, damped) if dampers else _groups(n, damped)
     for members in groups:
         if chain in [other for _, other in members]:
             rest = [m for m in members if m[1] != chain]
             return [(name, chain), *rest]
-    return f"{name} is told from all other structures of {n} masses by its force and sensor already"
+    return (
+        f"{name} is distinguishable from all other structures of {n} masses with its force"
+        " and sensor already"
+    )
 
 
 def _groups(n: int, damped: bool) -> Iterator[list[Named]]:

@@ -50,7 +50,7 @@ class NetworkAdvice:
         texts = [f"the data of {self.source} leave {enumeration(self.noise, BAR)}"]
         if len(self.noise) > 1:
             command = f"disting plan {shlex.quote(self.source)}"
-            texts.append(f"how much more of the same measurement tells these apart: {command}")
+            texts.append(f"how much more of the same measurement separates these: {command}")
         if not self.groups:
             texts.append("no other candidate gives the same responses as one of them")
         return [*texts, *larger_in_words(self.larger, self.noise[0])]
@@ -101,8 +101,7 @@ def _source(options: argparse.Namespace) -> str:
     source = next(name for name in options.models if name.lower().endswith(".json"))
     if len(options.models) > 1 or options.damped is not None:
         raise InputError(
-            f"{source} names its structures itself: leave other names and"
-            " --damped or --undamped away"
+            f"{source} names its structures itself: remove other names and --damped or --undamped"
         )
     return str(source)
 
@@ -119,8 +118,8 @@ def chain_advice(
     named = named_by(Path(source))
     if len(named.left) < 2 and not named.explained:
         raise InputError(
-            f"none of the structures of {source} explains its data, so the fit leaves no set: name"
-            " the structures to tell apart"
+            f"none of the structures of {source} explains its data, so the fit leaves no set:"
+            " name the structures to distinguish"
         )
     _warn(source, named)
     standing = stood(named.left, engine, progress)
@@ -142,8 +141,8 @@ def _warn(source: str, named: FitRecord) -> None:
     if named.responses > 1:
         complain(
             f"warning: {source} has {named.responses} responses; the menu starts from the first"
-            " one alone: what it calls sure is sure, and what it leaves open the others may have"
-            " told already"
+            " one only: what it calls sufficient is sufficient; the other responses may already"
+            " have decided what it leaves open"
         )
 
 

@@ -94,7 +94,7 @@ def written_file(text: str) -> str:
         return "/dev/fd/2"
     if not text or "\0" in text or path.is_dir():
         raise argparse.ArgumentTypeError(
-            f"{text or 'an empty name'} is no file; name a file, or - for standard output"
+            f"{text or 'an empty name'} is not a file; name a file, or - for standard output"
         )
     if not path.parent.is_dir():
         raise argparse.ArgumentTypeError(

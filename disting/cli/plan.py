@@ -85,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _write(options: argparse.Namespace, the_plan: Plan, best: Design | None) -> None:
     if best is None:
-        raise InputError("there is nothing to measure, so nothing is written: leave --out away")
+        raise InputError("there is nothing to measure, so nothing is written: remove --out")
     command = write_plan(the_plan, best, options.out)
     if options.json != "-":
         print(f"\nwritten to {options.out}; the spectrum is run by\n  {command}")
@@ -95,8 +95,8 @@ def _from_fit(path: Path, options: argparse.Namespace) -> int:
     """The selected structure of a fit against each rival that it names."""
     if options.rival or options.values or options.damped is not None:
         raise InputError(
-            f"{path} names structures and values itself: leave the rival, --set and"
-            f" {damping_option(is_damped(options))} away"
+            f"{path} names structures and values itself: remove the rival, --set and"
+            f" {damping_option(is_damped(options))}"
         )
     named: AnyNamed = networks_named_by(path) if is_of_networks(path) else named_by(path)
     if not named.explained:
@@ -172,10 +172,10 @@ def _effort(
     if options.noise is not None and number is None:
         return _measured(options, model, values)
     if number is None and named is None:
-        raise InputError("say how much a line scatters: --noise 0.02, or --noise FRF.csv")
+        raise InputError("give the scatter of a line: --noise 0.02, or --noise FRF.csv")
     low, high = options.band or ((named.low, named.high) if named else (0.0, 0.0))
     if not 0 < low < high:
-        raise InputError("say which lines are measured [Hz]: --band 5..300")
+        raise InputError("give the frequencies of the lines [Hz]: --band 5..300")
     size = number if number is not None else named.scatter if named else 0.0
     count = options.lines or (named.lines if named else 0) or LINES
     source = "given" if number is not None else "of the fitted data"
@@ -193,7 +193,7 @@ def _number(text: str | None) -> float | None:
 def _measured(options: argparse.Namespace, model: AnyStructure, values: Parameters) -> Effort:
     """Lines and scatter of a measured response."""
     if options.lines is not None:
-        raise InputError("the lines are those of the measured response: leave --lines away")
+        raise InputError("the lines are those of the measured response: remove --lines")
     response = read(Path(options.noise))
     is_machine = model.sort is Sort.MACHINE
     response = response.to_quantity(sensor_of(model)) if is_machine else as_impedance(response)
@@ -203,8 +203,8 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: Paramete
     responses = responses_of(model, values, response.omega)
     if len(responses) > 1:
         raise InputError(
-            f"{options.noise} is one response, {len(responses)} are planned: say how much a line"
-            " scatters, such as --noise 0.02 --band 5..300"
+            f"{options.noise} is one response, {len(responses)} are planned: give the scatter of"
+            " a line, such as --noise 0.02 --band 5..300"
         )
     seen = scatter(response, list(responses))
     own = 1 + round((response.freedom or 0.0) / 2)

@@ -21,7 +21,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         " 'disting fit --json': its selected structure"
     )
     p.add_argument("model", metavar="N:I|NETWORK|FIT.json", help=text)
-    text = "the structure to exclude (with FIT.json: each that it names)"
+    text = "the structure to exclude (with FIT.json: each one that it names)"
     p.add_argument("rival", nargs="?", metavar="M:J|NETWORK", help=text)
     _data(p)
     text = (
@@ -38,8 +38,8 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
 def _data(p: argparse.ArgumentParser) -> None:
     """Values of the true structure, and the data to plan for."""
     text = (
-        "values of all parameters of the true structure, such as m1=0.01,k12=500; of a circuit they"
-        " may stand in braces, such as R{R=20}"
+        "values of all parameters of the true structure, such as m1=0.01,k12=500; for a circuit"
+        " they may be given in braces, such as R{R=20}"
     )
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
@@ -59,7 +59,7 @@ def _data(p: argparse.ArgumentParser) -> None:
         help="number of lines, evenly spaced on a logarithmic scale (default: 120)",
     )
     text = (
-        "of how many repeats or periods a fit will find the scatter (default: 1, or those of"
-        " FRF.csv): the fewer, the less it excludes"
+        "number of repeats or periods from which a fit finds the scatter (default: 1, or those"
+        " of FRF.csv): fewer exclude less"
     )
     p.add_argument("--repeats", type=whole(1, 1000), metavar="R", help=text)

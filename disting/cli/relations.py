@@ -48,8 +48,8 @@ def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: i
     if domain != Domain.COMPLEX:
         if paper:
             raise InputError(
-                f"--domain {domain} comes after the exact decision: leave --conditions and"
-                " --representation away"
+                f"--domain {domain} is not supported with --conditions or --representation;"
+                " remove one of them"
             )
         return Query(View(domain), markov=markov)
     if conditions is None:

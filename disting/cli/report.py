@@ -50,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
     options.masses = [x for x in options.masses if not isinstance(x, Listed)]
     lists = [(page_name(Path(file)), file, list_of(file)) for file in files]
     if files and not options.masses and options.damping != "both":
-        raise InputError(f"--{options.damping} belongs to numbered chains: leave it away")
+        raise InputError(f"--{options.damping} is supported for numbered chains only; remove it")
     names = [name for name, *_ in lists]
     if len(set(names)) < len(names):
         raise InputError("two files would have one page: rename one of them")

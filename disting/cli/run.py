@@ -23,13 +23,14 @@ from disting.files import __version__
 from disting.model.family import Family
 
 DESCRIPTION = (
-    "Which models of a servo drive, or of another linear network, can a measurement not tell apart?"
-    " Exact verdicts, with evidence."
+    "Find the models of a servo drive, or of any linear network, that a measurement\n"
+    "cannot distinguish. Exact verdicts, with evidence."
 )
 STATUS = (
     "exit status: 0 fine, 1 a failed verification, 2 bad usage or bad input,"
     " 3 a verdict that cannot be checked alone"
 )
+HELP_WIDTH = 78
 Subparsers = Any  # the object that argparse gives for sub-commands has no public type
 
 
@@ -104,10 +105,24 @@ class _Parser(argparse.ArgumentParser):
         if command is None:
             return
         command.declare(self)
+        self._show_examples(command.examples)
         self.brief = command.brief_help()
         if self.brief:
             text = "show all options, each with what it means"
             self.add_argument("--help-all", action=_HelpAll, nargs=0, help=text)
+
+    def _show_examples(self, examples: Sequence[str]) -> None:
+        """End the help with them; other ends follow, wrapped if they were."""
+        if not examples:
+            return
+        end = self.epilog or ""
+        if end and self.formatter_class is argparse.HelpFormatter:
+            from textwrap import fill
+
+            end = fill(end, HELP_WIDTH)
+        self.formatter_class = argparse.RawDescriptionHelpFormatter
+        shown = "\n".join(["examples:", *(f"  {line}" for line in examples)])
+        self.epilog = f"{shown}\n\n{end}".rstrip()
 
     def format_help(self) -> str:
         """In brief, where there is such a help."""
@@ -124,14 +139,14 @@ class _Parser(argparse.ArgumentParser):
             if own and not meant:  # names of models after the file that holds them
                 meant = [f"; a model of a file is written {own[0]}:NAME"]
             self.error(
-                f"unrecognized arguments: {' '.join(rest)}{''.join(meant) or '; leave them away'}"
+                f"unrecognized arguments: {' '.join(rest)}{''.join(meant) or '; remove them'}"
             )
         return namespace_read, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             names = list(map(str, action.choices))
-            said = f"{short(value)} is none of {', '.join(names)}{near(str(value), names)}"
+            said = f"{short(value)} is not one of {', '.join(names)}{near(str(value), names)}"
             raise argparse.ArgumentError(action, said)
 
     def _print_message(self, message: str, file: Any = None) -> None:

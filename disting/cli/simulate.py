@@ -44,8 +44,8 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
         type=written_file,
         metavar="FILE",
         default="-",
-        help="where the response goes (default: standard output); of several responses that of the"
-        " first sensor and the second input goes to FILE-1-2",
+        help="file for the response (default: standard output); of several responses, the one of"
+        " sensor 1 and input 2 is written to FILE-1-2",
     )
     add_damped(p)
     add_notation(p)
@@ -62,15 +62,15 @@ def _drive(p: argparse.ArgumentParser) -> None:
         "model", nargs="?", metavar="N:I|NETWORK", help=f"{text} (default: a small two-mass drive)"
     )
     text = (
-        "values of all parameters of the model, such as m1=0.01,k12=500; of a circuit they may"
-        " stand in braces, such as R{R=20}"
+        "values of all parameters of the model, such as m1=0.01,k12=500; for a circuit they may"
+        " be given in braces, such as R{R=20}"
     )
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE,...", dest="values", help=text
     )
     add_quantity(p, Quantity.POSITION)
     p.set_defaults(quantity=None)
-    text = "quantity of the response that is written (default: acceleration)"
+    text = "quantity in the response that is written (default: acceleration)"
     p.add_argument("--response", type=quantity_word, choices=QUANTITIES, help=text)
     refuse(p, "--to", "the quantity of the response is --response, such as --response position")
 
@@ -149,8 +149,8 @@ def _records(
         return
     if name == "-":
         raise InputError(
-            f"{model.name} has {' x '.join(map(str, model.shape))} outputs and inputs: say where"
-            " the responses go, such as --csv frf.csv for frf-1-1.csv, .."
+            f"{model.name} has {' x '.join(map(str, model.shape))} outputs and inputs: give a"
+            f" file for the responses, such as --csv frf.csv for frf-1-1.csv, .."
         )
     path = Path(name)
     for i, row in enumerate(simulate_all(model, values, excitation, bench), 1):
@@ -165,7 +165,7 @@ def _model(options: argparse.Namespace) -> tuple[Chain | Network, dict[str, floa
 
     if options.model is None:
         if options.values or options.damped is not None or options.notation:
-            raise InputError("parameters belong to a model: name it, such as 2:1")
+            raise InputError("--set needs a model, such as 2:1")
         return DEMO_MODEL, {**DEMO_PARAMETERS}
     (model,) = structures([options.model], options, Quantity(options.quantity or Quantity.POSITION))
     return model, values_of(model, options.model, options)
@@ -179,7 +179,7 @@ def _response(model: Chain | Network, options: argparse.Namespace) -> str:
         return str(options.response or Quantity.ACCELERATION)
     for name in ("quantity", "response"):
         if getattr(options, name):
-            raise InputError(f"--{name} belongs to machines: leave it away")
+            raise InputError(f"--{name} is supported for machines only; remove it")
     return str(Quantity.POSITION)
 
 

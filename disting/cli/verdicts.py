@@ -65,9 +65,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_json(parser, "the verdicts with evidence")
     add_quantity(parser)
     add_deciding(parser)
-    text = "which may decide (default: all)"
+    text = "representation that may decide (default: all)"
     parser.add_argument("--representation", choices=VIEWS, default="all", help=text)
-    text = "use G_0 and G_1..G_K (default: all that are needed)"
+    text = "Markov parameters G_0 and G_1..G_K to use (default: all that are needed)"
     parser.add_argument("--markov", type=whole(1), default=0, metavar="K", help=text)
     add_work(parser)
 
@@ -112,12 +112,14 @@ def refuse_chain_options(options: argparse.Namespace) -> None:
     """Raises InputError for options that speak of numbered chains, where models are a file's."""
     if options.damped is not None:
         raise InputError(
-            f'{damping_option(options.damped)} belongs to numbered chains: write "damped": true or'
+            f"{damping_option(options.damped)} is supported for numbered chains only: write"
+            ' "damped": true or'
             " false at the chains of the file"
         )
     if getattr(options, "quantity", Quantity.ACCELERATION) != Quantity.ACCELERATION:
         raise InputError(
-            '--quantity belongs to numbered chains: write "quantity" at the chains of the file'
+            '--quantity is supported for numbered chains only: write "quantity" at the chains of'
+            " the file"
         )
 
 

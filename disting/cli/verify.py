@@ -41,7 +41,7 @@ def run(options: argparse.Namespace) -> int:
     if is_file and ":" in options.what[0] and not Path(options.what[0]).exists():
         raise InputError(f"name the other model too, such as: disting verify {options.what[0]} 3:4")
     if is_file and options.also:
-        raise InputError("the file names its experiments: leave --also away")
+        raise InputError("the file names its experiments: remove --also")
     verification = verify(options.what[0] if is_file else verdict_file(options.what, options))
     print(f"{' and '.join(options.what)}: {verification.text}")
     return STATUS[verification.status]

@@ -65,7 +65,7 @@ class Work(Enum):
         "pairs", 4, (0.0023, 0.0036, 0.0069), "fewer masses, or two models alone (disting compare)"
     )
     UNDAMPED_PAIRS = Rate("pairs", 4, (0.0027, 0.003), PAIRS.smaller)
-    IDENTIFIABILITY = Rate("models", 6, (0.085, 0.09), "leave --identifiability away")
+    IDENTIFIABILITY = Rate("models", 6, (0.085, 0.09), "remove --identifiability")
     UNDER_EXPERIMENTS = Rate("models", 3, (0.03, 0.32), "fewer masses, or fewer --also")
     DAMPERS = Rate("models with dampers", 3, (0.009, 0.027), "one model alone, or --sets single")
     FITS = Rate("candidates", 1, (0.1, 0.15, 0.3), "fewer masses, such as --masses 1-3")

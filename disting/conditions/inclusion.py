@@ -74,7 +74,7 @@ class InclusionFinding:
         )
 
     def __bool__(self) -> bool:
-        raise TypeError("a finding is not true or false; look at its inclusion")
+        raise TypeError("a finding is not true or false; use its inclusion")
 
     @property
     def is_known(self) -> bool:
@@ -108,7 +108,7 @@ class Inclusions:
             raise ValueError("what is no limit has no equivalent")
 
     def __bool__(self) -> bool:
-        raise TypeError("inclusions are not true or false; look at image and closure")
+        raise TypeError("inclusions are not true or false; use image and closure")
 
     def sentence(self, left: str, right: str) -> str:
         """Both statements in words an engineer understands.

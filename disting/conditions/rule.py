@@ -194,7 +194,7 @@ class Finding:
         return summary(self, f"{self.rule.in_words()} {self.outcome} ({self.certainty})")
 
     def __bool__(self) -> bool:
-        raise TypeError("a finding is not true or false; look at its outcome")
+        raise TypeError("a finding is not true or false; use its outcome")
 
     @property
     def is_known(self) -> bool:

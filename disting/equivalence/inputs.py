@@ -149,11 +149,11 @@ def _without(name: str) -> str:
     """Advice for a damper that is zero: the structure to use instead."""
     match name[0]:
         case "b":
-            return f": leave +{name} and its value away"
+            return f": remove +{name} and its value"
         case "d":
             return (
-                ": without dampers beside all springs say --undamped and leave their values away;"
-                " beside one of several springs 1e-90 has no effect"
+                ": for no dampers beside any spring, give --undamped and remove their values;"
+                " for none beside one of several springs, 1e-90 has no effect"
             )
     return ""
 

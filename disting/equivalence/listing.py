@@ -163,16 +163,17 @@ def sentence(fibre: Fibre, count: int, cause: str) -> str:
         return (
             "all there are"
             if not fibre.tests.boundary
-            else "all there are, but for any with an element near zero"
+            else "all there are, except any with an element near zero"
         )
     if fibre.status is Status.INFINITE:
         return "infinitely many: one member of each family is listed, others may have other signs"
-    listed = "the list may be incomplete" if count else "nothing can be said"
+    listed = "the list may be incomplete" if count else "nothing is known"
     if fibre.status is Status.NOT_COVERED:
         return f"{listed}: {fibre.reason}"
     if fibre.tests.boundary:
         return (
-            f"{listed}, since an element cannot be told from zero: a structure without it may serve"
+            f"{listed}, since an element cannot be distinguished from zero: a structure without"
+            " it may suffice"
         )
     return f"special values: {listed}, since {cause}; change a value slightly"
 
@@ -185,8 +186,11 @@ def under_all(fibre: Fibre, count: int, is_complete: bool) -> str:
         of = len(fibre.solutions)
         return "all there are" if count else f"none: all {of} that fit one of them miss another one"
     if fibre.status is Status.INFINITE:
-        return "infinitely many fit each experiment alone; not all of them were put into the others"
-    listed = "the list may be incomplete" if count else "nothing can be said"
+        return (
+            "infinitely many fit each experiment alone; not all of them were checked against"
+            " the others"
+        )
+    listed = "the list may be incomplete" if count else "nothing is known"
     return f"{listed}: no experiment alone gives a complete list"
 
 
@@ -194,7 +198,7 @@ def among(chains: Sequence[Chain]) -> str:
     """Searched structures in words: their number, size and kind.
 
     >>> among([Chain(2, dead_time=True), Chain(2, 1, 1, 2, 1, 2, dead_time=True)])
-    'the 2 structures of 2 masses, damped, with a dead time, looked at'
+    'the 2 structures of 2 masses, damped, with a dead time, searched'
     """
     first = chains[0]
     count = "the structure" if len(chains) == 1 else f"the {len(chains)} structures"
@@ -204,7 +208,7 @@ def among(chains: Sequence[Chain]) -> str:
     dampers = {c.ground_dampers for c in chains}
     kind += ["with dampers to the ground"] if dampers != {()} else []
     sizes = " or ".join(map(str, sorted({c.n_masses for c in chains})))
-    return f"{count} of {sizes} mass{'es' if sizes != '1' else ''}, {', '.join(kind)}, looked at"
+    return f"{count} of {sizes} mass{'es' if sizes != '1' else ''}, {', '.join(kind)}, searched"
 
 
 def obstacle(chain: Chain, other: Chain) -> str:
@@ -221,7 +225,7 @@ def obstacle(chain: Chain, other: Chain) -> str:
 def special(chain: Chain, point: Mapping[str, fmpq]) -> str:
     """Sentence on the special values of a model whose poles or zeros coincide."""
     if target(chain.structure, point).denominator.degree() < 2 * chain.n_masses + chain.lag:
-        return "a vibration mode is not seen by force and sensor (poles and zeros cancel)"
+        return "a vibration mode does not appear in the response (poles and zeros cancel)"
     equal = _equal_ratios(chain, point)
     return (
         f"springs have the same ratio k/d ({equal})"

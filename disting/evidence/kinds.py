@@ -63,7 +63,7 @@ class Decision(Generic[E]):
     reason: str = ""
 
     def __bool__(self) -> bool:
-        raise TypeError("a decision is not true or false; look at its membership")
+        raise TypeError("a decision is not true or false; use its membership")
 
 
 def evidence_from(data: dict[str, Any]) -> Evidence:

@@ -217,7 +217,7 @@ class PositiveFinding:
         withhold(self, (self.certainty, self.safety), "reason", share=Share.UNKNOWN, certainty=None)
 
     def __bool__(self) -> bool:
-        raise TypeError("a finding is not true or false; look at its share")
+        raise TypeError("a finding is not true or false; use its share")
 
     @property
     def is_known(self) -> bool:

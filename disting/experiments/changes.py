@@ -40,11 +40,11 @@ class Change(Generic[P]):
 
     def __post_init__(self) -> None:
         if self.kind.is_port:
-            raise InputError(f"a {self.kind.name} is moved: that is no change of the machine")
+            raise InputError(f"moving a {self.kind.name} is not a change of the machine")
         if self.kind.takes_size:
             object.__setattr__(self, "size", number(self.kind.name, self.size))
         elif self.size is not None:
-            raise InputError(f"a {self.kind.name} takes no size, not {short(self.size)}")
+            raise InputError(f"a {self.kind.name} has no size: remove {short(self.size)}")
 
     @property
     def text(self) -> str:

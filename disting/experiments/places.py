@@ -97,8 +97,8 @@ def ways(
         )
     if count > MOST_WAYS:
         raise InputError(
-            f"the places are not known in {count} ways, {MOST_WAYS} at most are asked for: name"
-            f" some, for instance {open_ones[0]}/{free[0]}"
+            f"the unknown places can be chosen in {count} ways, at most {MOST_WAYS} are"
+            f" examined: name some, for example {open_ones[0]}/{free[0]}"
         )
     numberings = (
         dict(zip(open_ones, chosen, strict=True)) for chosen in permutations(free, len(open_ones))
@@ -130,8 +130,8 @@ def _agreed(pairs: Iterable[tuple[int, int]]) -> Places:
             if pair[side] in met:
                 both = sorted((met[pair[side]][1 - side], pair[1 - side]))
                 raise InputError(
-                    f"mass {pair[side]} of the {name} model is both {both[0]} and {both[1]} of the"
-                    f" {other} one: a thing is one mass in each model"
+                    f"mass {pair[side]} of the {name} model is both {both[0]} and {both[1]} of"
+                    f" the {other} one: it can be only one of them"
                 )
             met[pair[side]] = pair
     zero = next((p for p in agreed if 0 in p and p != (0, 0)), None)

@@ -138,7 +138,7 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
         raise InputError("name at least one network to fit, and a measured response")
     if any(response.hold for response in data):
         raise InputError(
-            "networks are fitted without a hold; leave --hold out, and lines above a tenth of the"
+            "--hold is not supported for networks; remove it, and lines above a tenth of the"
             " sampling rate too (--band)"
         )
     for response in data:
@@ -150,8 +150,8 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
         outputs, inputs = network.shape
         if network.shape != asked[0].shape:
             raise InputError(
-                f"{network.name} has {outputs} x {inputs} outputs and inputs, {asked[0].name} has"
-                f" {' x '.join(map(str, asked[0].shape))}: fit them apart"
+                f"{network.name} has {outputs} x {inputs} outputs and inputs, {asked[0].name}"
+                f" has {' x '.join(map(str, asked[0].shape))}: fit them separately"
             )
         if outputs * inputs != len(data):
             raise InputError(
@@ -159,7 +159,7 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
                 f" responses, not {len(data)}"
             )
     if len({response.quantity for response in data}) > 1:
-        raise InputError("sensors of a network show one quantity: give the responses in one")
+        raise InputError("all responses of a network must have the same quantity: convert them")
     return asked
 
 

@@ -63,7 +63,7 @@ class Alternatives:
         return summary(self, self.sentence)
 
     def __bool__(self) -> bool:
-        raise TypeError("alternatives are not true or false; look at their extent")
+        raise TypeError("alternatives are not true or false; use their extent")
 
     def within(self, domain: Domain) -> tuple[Equivalent, ...]:
         """Those that are real or positive, or all."""

@@ -123,7 +123,7 @@ def positive_sets(model: AnyModel, values: Values, other: AnyModel) -> Synthesis
 def _number(value: Any) -> Fraction | float:
     """A fraction, or a number of 15 digits; raises NoFormulas where it may not be positive."""
     if not value > 0:
-        raise NoFormulas("a value is not seen to be positive")
+        raise NoFormulas("a value is not known to be positive")
     if isinstance(value, fmpq):
         return fraction(value)
     if value.rel_accuracy_bits() < 60:

@@ -129,7 +129,7 @@ class _Reader:
         """Error in the text as a whole: missing or unknown signs."""
         if re.search(r"[^\w\s.+*/()-]|\w\s*\(|//|__", self.text):
             reason = (
-                "is no rational expression: numbers, names and + - * / ** with whole exponents"
+                "is not a rational expression: numbers, names and + - * / ** with whole exponents"
                 " make one"
             )
         else:
@@ -244,7 +244,7 @@ def tree(entry: object) -> Tree:
 def _of_float(value: float) -> Fraction:
     if not value.is_integer():
         raise InputError(
-            f"{value!r} is a float and no exact number; write it as text, '{value!r}', or as a"
+            f"{value!r} is a float, which is not exact; write it as text, '{value!r}', or as a"
             " fraction"
         )
     return Fraction(int(value))
@@ -270,7 +270,7 @@ def _of_sympy(expression: Any, depth: int = 0) -> Tree:
         return power(
             _of_sympy(expression.base, depth + 1), int(expression.exp), short(str(expression))
         )
-    raise InputError(f"{short(str(expression))[1:-1]} is no rational expression in its symbols")
+    raise InputError(f"{short(str(expression))[1:-1]} is not a rational expression in its symbols")
 
 
 def polynomial_text(polynomial: fmpz_mpoly, names: Sequence[str]) -> str:

@@ -140,7 +140,7 @@ class Model(NotebookTable):
         'G(s) = 1/m1'
         """
         if chain.dead_time:
-            raise InputError("a dead time exp(-Td s) is no rational function of s")
+            raise InputError("a dead time exp(-Td s) is not a rational function of s")
         refuse_misnamed(name, naming_of(name, chain))
         parameters = tuple(sorted(chain.parameters))
         ring = symbols(["s", *parameters])
@@ -271,8 +271,8 @@ def _model(
     """The model of a transfer function in the ring of s and the parameters, s first."""
     if ratio.num.is_zero():
         raise InputError(
-            "the transfer function is zero: the output does not depend on the input; mend B, C or"
-            " the numerator, or leave the model away"
+            "the transfer function is zero: the output does not depend on the input; correct B,"
+            " C or the numerator, or remove the model"
         )
     if not parameters:
         raise InputError(NO_PARAMETER)
@@ -346,8 +346,8 @@ class MatrixModel(NotebookTable):
             raise InputError(f"a matrix of transfer functions has {MOST_ENTRIES} entries at most")
         if not self.entries:
             raise InputError(
-                "the transfer function is zero: no output depends on an input; mend B, C or the"
-                " numerator, or leave the model away"
+                "the transfer function is zero: no output depends on an input; correct B, C or"
+                " the numerator, or remove the model"
             )
 
     @staticmethod
@@ -471,7 +471,7 @@ def _shown(
     for name in of_type(names, list | tuple, wanted):
         if name not in parameters:
             raise InputError(
-                f"{short(name)} is known, but no parameter; there are {enumeration(parameters)}"
+                f"{short(name)} is not a parameter; the parameters are {enumeration(parameters)}"
             )
         context, zero = like[0].num.context(), like[0] - like[0]
         value = context.gen(context.names().index(name))

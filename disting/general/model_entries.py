@@ -49,10 +49,11 @@ def plain_of(content: bytes) -> object:
             parse_constant=_refuse_constant,
         )
     except UnicodeDecodeError:
-        raise InputError("this is no text in UTF-8; save it so") from None
+        raise InputError("this is not text in UTF-8; save it as UTF-8") from None
     except json.JSONDecodeError as reason:
         raise InputError(
-            f"this is no JSON: {reason.msg}, line {reason.lineno}, column {reason.colno}; the guide"
+            f"this is not JSON: {reason.msg}, line {reason.lineno}, column {reason.colno}; the"
+            " guide"
             " shows a whole file"
         ) from None
     except RecursionError:
@@ -60,7 +61,7 @@ def plain_of(content: bytes) -> object:
 
 
 def _refuse_constant(text: str) -> NoReturn:
-    raise InputError(f"{text} is no number of a model; write a number or an expression")
+    raise InputError(f"{text} is not a number of a model; write a number or an expression")
 
 
 def object_of(data: object, items: Iterable[str], what: str) -> Plain:
@@ -70,7 +71,7 @@ def object_of(data: object, items: Iterable[str], what: str) -> Plain:
         raise InputError(f"{what} is one object in braces with the keys {keys}")
     unknown = [key for key in data if key not in items]
     if unknown:
-        raise InputError(f"{short(unknown[0])} is no key of {what}; known are {keys}")
+        raise InputError(f"{short(unknown[0])} is not a key of {what}; its keys are {keys}")
     return data
 
 
@@ -191,7 +192,7 @@ def _of_chain(entry: Plain, name: str) -> Model:
         )
     chain = chain_of(reference, Family(1, damped, Quantity(quantity)))
     if chain.dead_time:
-        raise InputError("a dead time is no rational function of s; leave +delay away")
+        raise InputError("a dead time is not a rational function of s; remove +delay")
     return Model.from_chain(chain, name=name)
 
 
@@ -241,4 +242,4 @@ def _refuse_missing(entry: Plain, keys: Iterable[str]) -> None:
 def refuse_s(model: AnyModel) -> None:
     """Refuse a parameter called s, the frequency variable of every result."""
     if "s" in model.parameters:
-        raise InputError("s is a parameter, but stands for the frequency variable; rename it")
+        raise InputError("s is the frequency variable and cannot be a parameter; rename it")

@@ -87,8 +87,8 @@ class ModelList(NotebookTable):
             if model.name == name:
                 return model
         raise InputError(
-            f"no model is called {short(name)};"
-            f" there are {enumeration(m.name for m in self.models)}"
+            f"no model is called {short(name)}; the models are"
+            f" {enumeration(m.name for m in self.models)}"
         )
 
 
@@ -172,7 +172,9 @@ def _refuse_format(said: str) -> None:
 
 def _model(entry: object, place: int, variable: str) -> AnyModel:
     if not isinstance(entry, dict):
-        raise InputError(f"model {place} is no object; write it in braces, with a name and {FORMS}")
+        raise InputError(
+            f"model {place} is not an object; write it in braces, with a name and {FORMS}"
+        )
     name = entry.get("name")
     if type(name) is not str:
         raise InputError(f'model {place} has no name; give it one, such as "name": "two leaks"')

@@ -50,8 +50,8 @@ def positive(omega: Real) -> None:
     if np.any(omega <= 0):
         at = int(np.argmax(omega <= 0))
         raise InputError(
-            f"frequency {omega[at]:g} rad/s at line {at + 1} is not positive; remove the line (0 Hz"
-            " is none)"
+            f"frequency {omega[at]:g} rad/s at line {at + 1} is not positive; remove the line (0"
+            " Hz is not supported)"
         )
 
 
@@ -95,8 +95,8 @@ def drives(drive: Real | None) -> None:
     """Amplitudes of the input are above zero."""
     if drive is not None and not drive.min() > 0:
         raise InputError(
-            f"the amplitude of the input is positive at every line, not {drive.min():g}; leave out"
-            " what is not excited"
+            f"the amplitude of the input must be positive at every line, not {drive.min():g};"
+            " remove lines that are not excited"
         )
 
 
@@ -117,8 +117,8 @@ def reversed_sensor(omega: Real, response: Complex, missing: int) -> str | None:
     if np.median(np.abs(phase)) > np.pi / 4 or abs(slope) > 1:
         return None
     return (
-        "at low frequencies the acceleration is opposite to the force, as of a free mass seen by a"
-        " reversed sensor; if the sensor counts the other way round, give --sign=-"
+        "at low frequencies the acceleration is opposite to the force, as a reversed sensor"
+        " shows a free mass; if the sensor is reversed, give --sign=-"
     )
 
 

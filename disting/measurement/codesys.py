@@ -99,7 +99,7 @@ def _add(channel: Channel, sample: str, n: int, origin: str) -> None:
     try:
         channel.times.append(float(time))
     except ValueError:
-        raise InputError(f"{origin}, line {n}: {short(time)} is no time of a sample") from None
+        raise InputError(f"{origin}, line {n}: {short(time)} is not a time of a sample") from None
     try:
         number = TRUTH.get(value.lower())
         channel.values.append(float(value.replace(",", ".")) if number is None else number)

@@ -119,8 +119,9 @@ def _refuse_spectra(table: Table, columns: Sequence[Column]) -> None:
     names = enumeration(table.named(i) for i in _of(columns, Role.SPECTRUM))
     if names:
         raise InputError(
-            f"{table.origin}: {names}: a power spectrum is no frequency response, it has neither a"
-            " phase nor an input; record the force, torque or current together with the motion, and"
+            f"{table.origin}: {names}: a power spectrum is not a frequency response, it has"
+            f" neither phase nor input; record the force, torque or current together with the"
+            f" motion, and"
             " read both: --read input=NAME --read output=NAME"
         )
 
@@ -146,7 +147,8 @@ def choose(
         raise misread(
             table,
             columns,
-            f"{table.origin}: column {short(asked)} belongs to no response; responses begin at"
+            f"{table.origin}: column {short(asked)} is not the first column of a response;"
+            f" responses begin at"
             f" {firsts}",
         )
     return own
@@ -161,7 +163,7 @@ def misread(table: Table, columns: Sequence[Column], why: str) -> InputError:
     command = f"--read columns={','.join(words)}" if guessed else "--read columns=Hz,dB,deg"
     remedy = f"disting fit {shlex.quote(table.origin)} {command}" if guessed else f"as {command}"
     return InputError(
-        f"{why}; say what the columns are: {remedy}; headers: {table.listed()}",
+        f"{why}; name the columns: {remedy}; headers: {table.listed()}",
         "\n".join(_described(table, columns)),
     )
 
@@ -241,7 +243,7 @@ def _of_word(word: str) -> Column:
         kinds = enumeration((*FREQUENCIES, *LEVELS[1:], *PHASES))
         raise InputError(
             f"columns are named by {', '.join(WORDS)}, or by the unit of a frequency, gain or"
-            f" phase ({kinds}); {short(word)} is none"
+            f" phase ({kinds}); {short(word)} is not one of them"
         )
     return Column(Role.FREQUENCY, word)
 

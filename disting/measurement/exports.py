@@ -126,4 +126,4 @@ def _numbers(row: list[str], columns: list[int], where: str, mark: str) -> Itera
         try:
             yield float(cell if mark == "," else cell.replace(",", "."))
         except ValueError:
-            raise InputError(f"{where}, column {j + 1}: {short(cell)} is no number") from None
+            raise InputError(f"{where}, column {j + 1}: {short(cell)} is not a number") from None

@@ -185,7 +185,7 @@ def _signals(file: Source, records: Records, entry: Options) -> tuple[Options, t
     names = list(records.names(file))
     if entry.keys() & {"input", "output"}:
         raise InputError(
-            f"{file.name}: a time series has an input and an output, give both; there are"
+            f"{file.name}: a time series has an input and an output, give both; the signals are"
             f" {enumeration(sorted(names))}"
         )
     input, output, note = guess((name for name in names if name), file.name)
@@ -276,7 +276,7 @@ def guess(names: Iterable[str], origin: str) -> tuple[str, str, str]:
     if len(inputs) != 1 or len(outputs) != 1 or inputs == outputs:
         raise InputError(
             f"{origin}: which signal is the input, which the output? give --read"
-            f" input=NAME --read output=NAME; there are {enumeration(sorted(own_names))}"
+            f" input=NAME --read output=NAME; the signals are {enumeration(sorted(own_names))}"
         )
     return (
         inputs[0],

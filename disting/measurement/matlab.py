@@ -301,7 +301,7 @@ def dataset(file: Source, name: str, take: Take) -> NDArray[Any]:
                 " store them inside"
             )
         if array.dtype.hasobject:
-            raise InputError(f"{file.name}: {name} is no array of numbers")
+            raise InputError(f"{file.name}: {name} is not an array of numbers")
         take(name, _size(array))
         _check_chunks(array, f"{file.name}: {name}")
         if "MATLAB_empty" in array.attrs:
@@ -374,7 +374,7 @@ def variables(file: Source) -> Arrays:
         }
         return fields | whole
     if b"\0" not in content[:4]:  # version 4 begins with a small number
-        raise InputError(f"{file.name} is no MATLAB file")
+        raise InputError(f"{file.name} is not a MATLAB file")
     return {name: partial(_loaded, file, name) for name in _listed(file)}
 
 
@@ -400,7 +400,7 @@ def _listed(file: Source) -> set[str]:
 
     contents = _foreign(
         partial(scipy.io.whosmat, io.BytesIO(file.content)),
-        f"{file.name} is no MATLAB file that can be read",
+        f"{file.name} is not a MATLAB file that can be read",
     )
     return {str(entry[0]) for entry in contents}
 

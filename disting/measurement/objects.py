@@ -102,7 +102,8 @@ def from_control(
     data = getattr(system, "fresp", None) if data is None else data
     if data is None or not hasattr(system, "omega"):
         raise InputError(
-            f"{type(system).__name__} is no frequency response data of python-control (control.frd)"
+            f"{type(system).__name__} is not frequency response data of python-control"
+            " (control.frd)"
         )
     omega = _numbers(system.omega, "omega")
     values = row(
@@ -127,7 +128,7 @@ def _channel(shape: tuple[int, ...], output: int, input: int) -> tuple[int, ...]
     if len(shape) != 3 or not (0 <= output < shape[0] and 0 <= input < shape[1]):
         raise InputError(
             f"the FRD object has {' x '.join(map(str, shape[:2]))} outputs and inputs; {output},"
-            f" {input} is none"
+            f" {input} is not one of them"
         )
     return tuple(i for i, length in zip((output, input), shape[:2], strict=True) if length > 1)
 
@@ -139,7 +140,7 @@ def _label(system: Any, attribute: str, number: int) -> Signal:
 
 def _table(frame: Any) -> Table:
     if not all(hasattr(frame, name) for name in ("columns", "index", "reset_index", "to_numpy")):
-        raise InputError(f"{type(frame).__name__} is no pandas data frame")
+        raise InputError(f"{type(frame).__name__} is not a pandas data frame")
     whole = frame.reset_index() if frame.index.name is not None else frame
     try:
         values = whole.to_numpy(dtype=np.float64)

@@ -112,7 +112,7 @@ def _weights_of_hold(hold: Hold, lines: bytes, order: int) -> tuple[Complex, csr
     if np.any(share >= 0.5):
         raise InputError(
             f"a line at {omega.real.max() / (2 * np.pi):g} Hz is not below half the sampling rate"
-            f" of {1 / hold.period:g} Hz; is the time of the hold in seconds, or leave lines out"
+            f" of {1 / hold.period:g} Hz; check that the hold is in seconds, or remove lines"
             " with --band"
         )
     power = 3 - hold.order

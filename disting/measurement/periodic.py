@@ -115,8 +115,8 @@ WANDERING = (
 )
 PAIR = 2  # periods of which the first one is kept where it shows no transient
 DECAYS = (
-    "the first of two periods is dropped: it differs from the second one by what decays, a"
-    " transient; --read transient=0 keeps it"
+    "the first of two periods is dropped: its difference from the second one decays, so it"
+    " contains a transient; --read transient=0 keeps it"
 )
 SETTLED = "both periods are used: the first one shows no transient; --read transient=1 drops it"
 OFF_GRID = 1e-3  # of the line spacing, by which a given frequency may miss its line
@@ -331,8 +331,8 @@ def _whole_periods(x: Real, period: int, transient: int) -> Real:
     if count < 1:
         raise InputError(
             f"{len(x)} samples hold {len(x) // period} whole periods of {period} samples,"
-            f" {transient} {'is' if transient == 1 else 'are'} dropped as transient: none is left;"
-            " --read transient=0 keeps all, if the first one is no transient"
+            f" {transient} {'is' if transient == 1 else 'are'} dropped as transient: none"
+            f" remains; --read transient=0 keeps all, if the first one has no transient"
         )
     start = transient * period
     return x[start : start + count * period]
@@ -349,7 +349,7 @@ def _detected(exciting: Complex, length: int) -> np.ndarray[tuple[int], np.dtype
     if len(chosen) < FEWEST:
         raise InputError(
             f"{plural(len(chosen), 'excited line')} in a period of {length} samples: too few,"
-            f" at least {FEWEST} are needed; where the excitation is no sum of sines, give"
+            f" at least {FEWEST} are needed; where the excitation is not a sum of sines, give"
             " --read segment=SAMPLES for Welch's method"
         )
     return chosen

@@ -82,8 +82,8 @@ def leave_out(
         kept,
         (),
         (
-            f"{enumeration(named)}: not like the other measurements, by more than they scatter; it"
-            " is in the mean: look at it, or leave it out with --outliers drop",
+            f"{enumeration(named)}: differs from the other measurements by more than they"
+            " scatter; it is included in the mean: check it, or remove it with --outliers drop",
         ),
     )
 

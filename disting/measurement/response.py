@@ -345,7 +345,8 @@ class FrequencyResponse(NotebookTable):
         window = self.window
         if window is None or window.ratio is None or window.share is None:
             return self
-        share, shown = window.share, f"seen under a window of {window.duration:g} s, as models are"
+        share = window.share
+        shown = f"shown through a window of {window.duration:g} s, and models likewise"
         return replace(
             self,
             reading="; ".join(filter(None, [self.reading, shown])),

@@ -47,7 +47,7 @@ def in_omega(
     round_, round_in_hertz = is_round(values), is_round(values / (2 * np.pi))
     if plain == "Hz" and round_in_hertz and not round_:
         return values, (
-            f"{who}: frequencies taken as rad/s{' although Hz is said' if said else ''}, in which"
+            f"{who}: frequencies taken as rad/s{' although Hz is stated' if said else ''}, in which"
             " they are the round numbers"
             f" {_first(values / (2 * np.pi))} Hz; if not, give --unit frequency=Hz"
         )
@@ -67,7 +67,7 @@ def factor(unit: str) -> float:
     value = omega_per(unit)
     if value is None:
         raise InputError(
-            f"{short(unit)} is no unit of frequency that is known; known are"
+            f"{short(unit)} is not a known unit of frequency; known units:"
             f" {enumeration(FREQUENCIES)}: give --unit frequency=Hz"
         )
     return value
@@ -120,9 +120,7 @@ def in_si(
         (input, input_unit, "A, Nm, N"),
     ):
         if text and unit is None:
-            raise InputError(
-                f"{short(text)} is no unit that is known here; known are such as {example}"
-            )
+            raise InputError(f"{short(text)} is not a known unit; examples: {example}")
     if output_unit is not None:
         response = _moved(
             response, output_unit, said=output or response.output.unit, asked=output is not None
@@ -141,9 +139,7 @@ def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResp
     if not 0 < constant < float("inf"):
         raise InputError(f"a torque constant is positive [Nm/A or N/A], not {constant:g}")
     if response.input.unit in ("N", "Nm"):
-        raise InputError(
-            f"the input is in {response.input.unit} already; leave --torque-constant away"
-        )
+        raise InputError(f"the input is in {response.input.unit} already; remove --torque-constant")
     unit = motion(response.output.unit)
     note = (
         None

@@ -31,7 +31,7 @@ def read_trace(text: str, origin: str) -> Table | None:
     try:
         frames = fromstring(text).findall(f".//{FRAMES}")
     except ParseError as error:
-        said = f"this trace is no whole XML ({error}); export it again"
+        said = f"this trace is not complete XML ({error}); export it again"
         raise InputError(f"{origin}: {said}") from None
     if len(frames) != 1:
         raise InputError(f"{origin}: a trace of {len(frames)} frames; export one")
@@ -76,7 +76,7 @@ def _numbers(records: list[Element], key: str, origin: str) -> Iterator[float]:
                 value = float(said)
             except ValueError:
                 where = f"{origin}, record {n}, {key}"
-                raise InputError(f"{where}: {short(said)} is no number") from None
+                raise InputError(f"{where}: {short(said)} is not a number") from None
         if value is None or (key == TIME and said is None):
             raise InputError(f"{origin}: record {n} of this trace has no value of {key}")
         yield value

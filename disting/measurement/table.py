@@ -182,8 +182,8 @@ def _seconds(table: Table, at: int) -> float:
     name = known_unit(unit, TIMES)
     if name is None:
         raise InputError(
-            f"{table.origin}, {table.named(at)}: {short(unit)} is no unit of time that is known;"
-            f" known are {', '.join(TIMES)}: give --read sampling_rate=HZ"
+            f"{table.origin}, {table.named(at)}: {short(unit)} is not a known unit of time;"
+            f" known units: {', '.join(TIMES)}: give --read sampling_rate=HZ"
         )
     return TIMES[name]
 

@@ -220,12 +220,12 @@ class _Reading:
             units = (
                 enumeration(PHASES)
                 if phase
-                else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N, ohm and alike"
+                else f"{', '.join(LEVELS)}, rad/s^2/A, mm/s/N, ohm and the like"
             )
             remedy = "phase=deg" if phase else "magnitude=1, which takes the numbers as they are"
             raise InputError(
                 f"{self.table.origin}, {self.table.named(at)}: the unit {short(unknown)} is not"
-                f" known; known are {units}; else give --unit {remedy}"
+                f" known; known units: {units}; else give --unit {remedy}"
             )
 
     def _scale(self, at: int) -> float:
@@ -292,7 +292,7 @@ class _Reading:
             asked = known_unit(str(self.phase_unit), PHASES)
             if asked is None:
                 raise InputError(
-                    f"{short(self.phase_unit)} is no unit of phase that is known; known are"
+                    f"{short(self.phase_unit)} is not a known unit of phase; known units:"
                     f" {enumeration(PHASES)}: give --unit phase=deg"
                 )
             return asked
@@ -319,8 +319,8 @@ def _grid(
     """Frequencies [rad/s]; what is assumed, or contradicts the numbers, is said."""
     if column.unknown and asked is None:
         raise InputError(
-            f"{table.origin}, {table.named(at)}: {short(column.unknown)} is no unit of frequency"
-            f" that is known; known are {enumeration(FREQUENCIES)}: give --unit frequency=Hz"
+            f"{table.origin}, {table.named(at)}: {short(column.unknown)} is not a known unit of"
+            f" frequency; known units: {enumeration(FREQUENCIES)}: give --unit frequency=Hz"
         )
     grid, said = in_omega(table.column(at), column.unit or None, asked, table.named(at))
     (doubts if column.unit else notes).extend([said] if said else [])

@@ -42,7 +42,7 @@ def decode(content: bytes, origin: str) -> str:
         if "\0" not in text:
             return text
     raise InputError(
-        f"{origin} is no text file; MATLAB files end in .mat, universal files in .uff or .unv"
+        f"{origin} is not a text file; MATLAB files end in .mat, universal files in .uff or .unv"
     )
 
 
@@ -179,7 +179,7 @@ def _first_row(
         if len(fields) == width and numbers:
             wrong = next(i for i, f in enumerate(fields, 1) if not _count([f], decimal))
             raise InputError(
-                f"{origin}, line {n}, column {wrong}: {short(fields[wrong - 1])} is no number"
+                f"{origin}, line {n}, column {wrong}: {short(fields[wrong - 1])} is not a number"
             )
     raise InputError(f"{origin} holds no line of {width} numbers")
 
@@ -226,7 +226,7 @@ def _numbers(
         if not NUMBER.fullmatch(text):
             named = f" ({headers[column - 1]})" if headers[column - 1] else ""
             raise InputError(
-                f"{origin}, line {n}, column {column}{named}: {short(field)} is no number"
+                f"{origin}, line {n}, column {column}{named}: {short(field)} is not a number"
             )
         numbers.append(float(re.sub("[dD]", "e", text)))
     return numbers

@@ -230,18 +230,18 @@ def _check_method(
     if segment is None:
         if least_coherence is not None:
             raise InputError(
-                "least_coherence belongs to Welch's method: give --read segment=SAMPLES too"
+                "least_coherence is for Welch's method: give --read segment=SAMPLES too"
             )
         return
     if period is not None or lines is not None:
         raise InputError(
-            "period and lines belong to a periodic excitation, segment to any other: give one of"
+            "period and lines are for a periodic excitation, segment for any other: give one of"
             " them"
         )
     if outliers != "keep":
         raise InputError(
-            "--outliers drop compares periods or repeats; segments of Welch's method are not alike:"
-            " cut the record where it is disturbed, or leave it away"
+            "--outliers drop compares periods or repeats, not segments of Welch's method: remove"
+            " it, or cut the record where it is disturbed"
         )
 
 

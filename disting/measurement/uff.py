@@ -63,14 +63,14 @@ def read_uff(
             enumeration((f"{i}: {_place(r)}" for i, r in enumerate(responses, 1)), "; ") or "none"
         )
         raise InputError(
-            f"{file.name} has no frequency response number {number}; there are: {offered}"
+            f"{file.name} has no frequency response number {number}; its responses are: {offered}"
         )
     chosen = responses[number - 1]
     shown, note = _quantity(chosen, quantity)
     try:
         data = np.asarray(chosen["data"], dtype=complex)
         if len(data) != chosen["num_pts"]:
-            raise ValueError(f"{len(data)} values where {chosen['num_pts']} are said")
+            raise ValueError(f"{len(data)} values, but the header states {chosen['num_pts']}")
         return (
             FrequencyResponse(
                 2 * np.pi * np.asarray(chosen["x"], dtype=float),
@@ -106,7 +106,7 @@ def _records(file: Source) -> Sequence[Record]:
             return [sets.read_sets(i) for i in numbers]
     except Exception as error:  # damaged files raise whatever the library meets first
         raise InputError(
-            f"{file.name} is no universal file that can be read: {type(error).__name__}: {error}"
+            f"{file.name} is not a universal file that can be read: {type(error).__name__}: {error}"
         ) from None
 
 

@@ -229,7 +229,9 @@ def _optional(
 def _numeric(arrays: Arrays, name: str, origin: str) -> NDArray[Any]:
     array = np.asarray(arrays[name]())
     if array.dtype.kind not in "biufc" or not array.size:
-        raise InputError(f"{origin}: {name} is no array of numbers; variables: {_listed(arrays)}")
+        raise InputError(
+            f"{origin}: {name} is not an array of numbers; variables: {_listed(arrays)}"
+        )
     return array.astype(np.complex128 if array.dtype.kind == "c" else np.float64)
 
 
@@ -254,7 +256,7 @@ def _signal(arrays: Arrays, asked: str, origin: str) -> NDArray[Any]:
             )
         return np.asarray(several[index[0]])
     if values.ndim != 1 or index is not None:
-        raise InputError(f"{asked} is no single signal: {name} is of shape {values.shape}")
+        raise InputError(f"{asked} is not a single signal: {name} is of shape {values.shape}")
     return np.asarray(values)
 
 
@@ -278,7 +280,7 @@ def _rate(
 def _scalar(arrays: Arrays, name: str, origin: str) -> float:
     values = _numeric(arrays, name, origin)
     if values.size != 1 or np.iscomplexobj(values) or not values.item() > 0:
-        raise InputError(f"{origin}: {name} is no positive number; give --read sampling_rate=HZ")
+        raise InputError(f"{origin}: {name} is not a positive number; give --read sampling_rate=HZ")
     return float(values.item())
 
 

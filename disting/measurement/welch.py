@@ -56,7 +56,7 @@ GROWTH = 0.44
 TINY = np.finfo(float).tiny
 SURE = 2.0  # times what chance makes: below that no bias is taken out
 REPEATED = 20  # segments within which an input that repeats is no noise
-SEEN = " (a fit of chains sees its models through the same window instead)"
+SEEN = " (a fit of chains applies the same window to its models instead)"
 CURVED = 2.5  # squared second difference of lines that chance makes, in squared deviations
 
 

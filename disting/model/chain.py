@@ -114,7 +114,7 @@ CONSTRAINTS: tuple[Constraint, ...] = (
         "sensor-reference",
         "0 <= n_meas- <= n_gap",
         lambda i: 0 <= i.meas_minus <= i.gap,
-        "the sensor looks across the gap, from mass 0 (the ground) to {gap}, not {meas_minus}",
+        "the sensor measures across the gap, from mass 0 (the ground) to {gap}, not {meas_minus}",
     ),
     Constraint(
         36,
@@ -136,7 +136,8 @@ CONSTRAINTS: tuple[Constraint, ...] = (
         "sensitivity",
         "n_gap = 0 or n_meas- > 0",
         lambda i: i.gap == 0 or i.meas_minus > 0,
-        "nothing shows the masses below the gap: the sensor looks from one of 1 to {gap}, not the"
+        "nothing shows the masses below the gap: the sensor measures from one of 1 to {gap}, not"
+        " the"
         " ground",
     ),
     Constraint(

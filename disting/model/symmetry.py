@@ -94,8 +94,8 @@ def refuse_gap_damper(chain: Chain) -> None:
     """
     if chain.gap_damper:
         raise InputError(
-            "verdicts on chains know no damper across the gap, such as d12: compare the structure"
-            " as a network (disting.network.chains.of_chain)"
+            "verdicts on chains do not support a damper across the gap, such as d12: compare the"
+            " structure as a network (disting.network.chains.of_chain)"
         )
 
 

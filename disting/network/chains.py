@@ -17,7 +17,7 @@ def of_chain(chain: Chain, name: str = "network") -> Network:
     m1 1, m2 2, k12 2 1
     """
     if chain.lag or chain.dead_time:
-        raise InputError("a lag and a dead time are no elements of a network: leave them away")
+        raise InputError("networks do not support lag and dead time: remove them")
     force, sensor = ports_of(chain.structure)
     elements = elements_of(chain.structure)
     return Network(elements, (force,), (sensor,), chain.quantity.order, name)

@@ -190,7 +190,10 @@ def _problems_of_element(e: Element) -> Iterator[str]:
     if e.letter == "v" and e.value:
         yield f"{short(e.value)} is a compartment, which has no value: leave its name empty"
     if e.letter != "v" and not _is_name(e.value):
-        yield f"{short(e.value)} is no name of a value: use letters, digits and _, and not s alone"
+        yield (
+            f"{short(e.value)} cannot be the name of a value: use letters, digits and _, but not s"
+            " alone"
+        )
     if e.letter != "v" and kind_of(e.value) != e.kind:
         yield (
             f"{e.value} names a {kind_of(e.value).word}: begin the name of a {e.kind.word} with"
@@ -199,13 +202,13 @@ def _problems_of_element(e: Element) -> Iterator[str]:
     if e.ratio and (e.kind.ends == 1 or e.letter == "a" or 0 in e.nodes):
         yield f"{called} has a ratio, as of a gear: that needs two nodes other than the ground"
     if e.exponent and e.letter != "P":
-        yield f"{called} is a {e.kind.word}, which has no exponent: leave that away"
+        yield f"{called} is a {e.kind.word}, which has no exponent: remove it"
     if e.exponent and not _is_name(e.exponent):
-        yield f"{short(e.exponent)} is no exponent: use a name such as n1"
+        yield f"{short(e.exponent)} is not an exponent: use a name such as n1"
     if e.known_ratio == 0:
-        yield f"the ratio of {called} is zero: leave the gear away"
+        yield f"the ratio of {called} is zero: remove the gear"
     if e.known_ratio is None and not _is_name(e.ratio):
-        yield f"{short(e.ratio)} is no ratio: use a name other than s, or a number such as 3/2"
+        yield f"{short(e.ratio)} is not a ratio: use a name other than s, or a number such as 3/2"
 
 
 def _is_name(text: str) -> bool:
@@ -236,7 +239,9 @@ def kind_of(name: str) -> Kind:
         raise InputError(f"{short(name)} is a constant phase element: call it P{name[3:]}")
     if letter not in KINDS or letter == "v":
         letters = _words(letter for letter in KINDS if letter != "v")
-        raise InputError(f"{short(name)} begins with no letter of an element; there are {letters}")
+        raise InputError(
+            f"{short(name)} does not begin with the letter of an element, which are {letters}"
+        )
     return KINDS[letter]
 
 
@@ -573,11 +578,11 @@ def _problems(network: Network) -> Iterator[str]:
     if len(sorts) > 1:
         examples = (next(e.value for e in elements if e.kind.sort == s) for s in sorts)
         phrase = " and ".join(f"{x} of {s}" for x, s in zip(examples, sorts, strict=True))
-        yield f"elements of one sort make a network, not {phrase}; describe them apart"
+        yield f"all elements of a network are of one kind, not {phrase}; describe them separately"
     if len(network.nodes) > MOST_NODES or len(elements) > MOST_ELEMENTS:
         yield (
             f"a network has {MOST_NODES} nodes and {MOST_ELEMENTS} elements at most, not"
-            f" {len(network.nodes)} and {len(elements)}; leave away what is not seen"
+            f" {len(network.nodes)} and {len(elements)}; remove what does not affect the response"
         )
     yield from _problems_of_names(elements)
     yield from _problems_of_ports(network, ports)
@@ -611,7 +616,7 @@ def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]
     (entering, _), (seeing, _) = names = PORTS[network.sort]
     for side, (what, example) in zip((network.inputs, network.outputs), names, strict=True):
         if not side:
-            yield f"{what} is missing: say where it is, such as {example} in a text"
+            yield f"{what} is missing: give its place, such as {example} in a text"
     if len(ports) > 2 * MOST_PORTS:
         yield f"a network has {MOST_PORTS} inputs and outputs at most"
     for p in ports:
@@ -630,7 +635,9 @@ def _problems_of_ports(network: Network, ports: Sequence[Port]) -> Iterator[str]
     roots = parts({0, *network.nodes, *ends}, joined)
     lost = [i for i in network.nodes if roots[i]] if network.sort is Sort.MACHINE else []
     if lost:
-        yield f"node {lost[0]} has no mass and no way to the rest: connect it or leave it away"
+        yield (
+            f"node {lost[0]} has no mass and is not connected to the rest: connect it or remove it"
+        )
     for p in ports:
         if network.is_directed and (p.minus or not p.plus):
             yield f"a port is between nodes {p.plus} and {p.minus}: of compartments it is at one"

@@ -128,7 +128,7 @@ def named_by(path: Path) -> FitRecord:
         raise InputError(f"{path}: {reason}") from None
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
         raise InputError(
-            f"{path} is no whole file of a fit: {reason} is missing or wrong; fit again"
+            f"{path} is not a complete fit file: {reason} is missing or wrong; fit again"
         ) from None
 
 
@@ -356,4 +356,4 @@ def _with_containment(survivor: LeftNetwork, selected: Network | None) -> LeftNe
 
 
 def _broken(path: Path, reason: Exception) -> InputError:
-    return InputError(f"{path} is no whole file of a fit: {reason} is missing or wrong; fit again")
+    return InputError(f"{path} is not a complete fit file: {reason} is missing or wrong; fit again")

@@ -108,7 +108,7 @@ def responses_of(
     whole = plant.response(np.array([numbers[name] for name in plant.parameters]))
     if not np.all(whole):
         raise InputError(
-            f"{name_of(structure)}: a sensor shows nothing of an input: leave one of both away"
+            f"{name_of(structure)}: an input does not affect one of the sensors: remove one of them"
         )
     return tuple(whole.reshape(-1, len(omega)))
 
@@ -343,7 +343,7 @@ def fitted_rival(
     sensor = sensor_of(model)
     rival = shown_as(rival, sensor)
     if rival == model:
-        raise InputError("a structure is no rival of itself: name another one")
+        raise InputError("a structure is not a rival of itself: name another one")
     _check(omega, rho)
     _check_ports(model, rival)
     responses = responses_of(model, values, omega)

@@ -57,7 +57,7 @@ def notebook_page(name: str, text: str, container: Container[str]) -> GuidePage:
             part for number, cell in enumerate(cells) for part in _parts(number, cell, outputs)
         ]
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise InputError(f"{short(name)} is no executed notebook: {error}") from error
+        raise InputError(f"{short(name)} is not an executed notebook: {error}") from error
     title = [] if parts and parts[0].startswith("# ") else [f"# {name}"]
     return guide_page(
         PREFIX + name, "\n\n".join([*title, *parts, "```file\n```"]), container, outputs=outputs

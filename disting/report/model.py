@@ -262,13 +262,15 @@ def _positive(
     )
     said = {
         Share.ALWAYS: (
-            f"for all positive parameters here, A{other} has positive ones that do the same"
+            f"for all positive parameters here, A{other} has positive ones with the same response"
         ),
         Share.SOMETIMES: (
-            f"only for some positive parameters here, A{other} has positive ones that do the same"
+            f"only for some positive parameters here, A{other} has positive ones with the same"
+            " response"
         ),
         Share.NEVER: f"A{other} needs parameters that are not positive",
-        Share.UNKNOWN: f"whether A{other} has positive parameters that do the same is not known",
+        Share.UNKNOWN: f"it is not known whether A{other} has positive parameters with the same"
+        " response",
     }
     if one_sided:
         return f"{said[own_share]}; generic ones of A{other} have none here"

@@ -150,7 +150,8 @@ def _cell(value: object) -> Markup:
 
 
 COLUMNS = (
-    "misfit: J, of data that a fit has not seen; badly known: condition index, critical above 30;"
+    "misfit: J, on data not used for the fit; poorly determined: condition index, critical above"
+    " 30;"
     " weight: how likely it is beside the others (Akaike)."
 )
 

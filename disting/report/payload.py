@@ -298,4 +298,4 @@ def _undecided(verdict: Verdict) -> str:
     # notes name models, and a name may look like a place for a name: a word joiner parts it
     phrase = "; ".join(verdict.notes).replace("{", "{\u2060")
     notes = f" ({phrase})" if phrase else ""
-    return f"Nothing here settles {{L}} and {{R}} over {verdict.domain} parameters{notes}."
+    return f"Nothing here decides {{L}} and {{R}} over {verdict.domain} parameters{notes}."

@@ -38,15 +38,16 @@ SHORT = (
 )
 SENTENCES = {  # of two sizes, the left one smaller
     LEFT_INSIDE: (
-        "But over complex parameters {L} is a limit of {R}: {R} comes as close to its curve as one"
-        " likes. Whether positive parameters do is not asked here."
+        "But over complex parameters {L} is a limit of {R}: {R} comes arbitrarily close to its"
+        " curve. Positive parameters are not examined here."
     ),
     NO_LIMIT: (
         "Neither is a limit of the other, over complex parameters or positive ones: fitted to a"
-        " machine of the other kind, each leaves an error however well it is measured, special"
+        " machine of the other kind, each leaves an error however precise the measurement is,"
+        " special"
         " values aside."
     ),
-    NOT_KNOWN: "Whether {L} is a limit of {R}, approached as closely as one likes, is not known.",
+    NOT_KNOWN: "It is not known whether {L} is a limit of {R}, approached arbitrarily closely.",
 }
 
 

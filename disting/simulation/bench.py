@@ -165,7 +165,8 @@ def read_spectrum(path: Path) -> tuple[tuple[float, float], ...]:
         lines = ()
     if not lines:
         raise InputError(
-            f"{path} is no spectrum: a CSV file with the columns {' and '.join(HEADER)} is needed"
+            f"{path} is not a spectrum: a CSV file with the columns {' and '.join(HEADER)} is"
+            " needed"
         )
     return lines
 
@@ -340,7 +341,7 @@ def _friction(
 ) -> list[Friction]:
     """The friction of each mass; raises InputError for one that is none."""
     if isinstance(model, Network) and model.sort is not Sort.MACHINE:
-        raise InputError("friction belongs to machines: leave it away")
+        raise InputError("friction is supported for machines only: remove it")
     if not set(friction) <= set(nodes):
         raise InputError(
             f"friction sits at masses {enumeration(map(str, nodes))}, not at {sorted(friction)}"

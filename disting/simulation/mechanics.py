@@ -132,11 +132,11 @@ def check_values(model: AnyModel, values: Mapping[str, float]) -> dict[str, floa
     positive |= {name for e in elements for name in (e.ratio, e.exponent)}
     above = [e.exponent for e in elements if e.exponent and values[e.exponent] > 1]
     if above:
-        raise InputError(f"{above[0]} = {values[above[0]]} is no exponent: it is at most 1")
+        raise InputError(f"{above[0]} = {values[above[0]]} is not an exponent: it is at most 1")
     for name, value in values.items():
         if not 0 <= value < np.inf or (name in positive and value == 0):
             kind = "positive" if name in positive else "non-negative"
-            raise InputError(f"{name} = {short(value)} is no {kind} number")
+            raise InputError(f"{name} = {short(value)} is not a {kind} number")
     return {name: float(values[name]) for name in names}
 
 

@@ -164,8 +164,8 @@ def _refuse_no_file(text: str) -> None:
     is_other = os.path.exists(path) and not os.path.isfile(path)
     if not is_file or is_address or is_other or not os.path.isdir(folder or os.curdir):
         raise InputError(
-            f"{VARIABLE} is {short(text)}, which is none of its three choices: off, :memory:, or a"
-            " file in a folder that is there, such as cache.sqlite3"
+            f"{VARIABLE} is {short(text)}; it can be off, :memory:, or a file in an existing"
+            " folder, such as cache.sqlite3"
         )
 
 
@@ -228,7 +228,8 @@ def replace(path: str, suspect: Identity, wait: float) -> str:
     os.makedirs(os.path.dirname(path), exist_ok=True)
     if suspect != MISSING and not _was_ours(path):
         raise OSError(
-            "it is no cache of disting and is left as it is; name another file with DISTING_CACHE"
+            "it is not a cache of disting and is left as it is; name another file with"
+            " DISTING_CACHE"
         )
     with FileLock(path + LOCK).acquire(wait, PAUSE_SECONDS):
         if identity(path) != suspect:

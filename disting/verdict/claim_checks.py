@@ -119,7 +119,7 @@ def _false_inclusions(claim: Claim) -> Iterator[str]:
     if (v.image, v.closure) != (both.image.inclusion, both.closure.inclusion):
         yield f"{where}the inclusion is not that of its evidence"
     if left.rank == right.rank:
-        yield f"{where}an inclusion is told of models of equal rank"
+        yield f"{where}an inclusion is stated for models of equal rank"
         return
     for what in false_of_inclusions(both, left, right):
         yield f"{where}{what} is not true of these models"
@@ -162,16 +162,18 @@ def _false_shares(claim: Claim) -> Iterator[str]:
     if isinstance(v.evidence, BothWays):
         shares = (v.left_positive, v.right_positive)
         if shares != (v.evidence.left, v.evidence.right) and shares != (None, None):
-            yield f"{where}positive equivalents are told in two ways"
+            yield f"{where}positive equivalents are stated in two ways"
     for share, side, other in ((v.left_positive, left, right), (v.right_positive, right, left)):
         if share is None:
             continue
         if not asking.has_shares(left, right):
-            yield f"{where}positive equivalents are told of models of which they are not asked"
+            yield (
+                f"{where}positive equivalents are stated for models for which they are not examined"
+            )
         elif share.evidence is not None and not asking.confirms_share(side, other, share):
             yield f"{where}the evidence on positive equivalents is not true of these models"
         elif share != asking.share(side, other):
-            yield f"{where}what is told of positive equivalents is not what the settings give"
+            yield f"{where}the statement on positive equivalents is not what the settings give"
 
 
 CHECKS: dict[str, Check] = {

@@ -268,13 +268,15 @@ def identifiability(
         (model,) = read_together([model], damped=damped, quantity=quantity)
     if not isinstance(model, Chain | Model | MatrixModel):
         raise InputError(
-            "identifiability is asked of a chain, such as Family(3)[4], a Model or a Network"
+            "identifiability takes a chain, such as Family(3)[4], a Model or a Network"
         )
     if not experiments:
         return identify([model], over, engine)[0]
     wrong = [e for e in experiments if not isinstance(e, Experiment)]
     if wrong:
-        raise InputError("of one model each experiment is one, such as Experiment(sensor=2)")
+        raise InputError(
+            "experiments on one model are single ones, such as Experiment(sensor=2), not pairs"
+        )
     return identify_measured(measure(model, tuple(dict.fromkeys(experiments))), over, engine)
 
 

@@ -60,5 +60,7 @@ def classes_of(
     apart = (Relation.DISTINGUISHABLE, Relation.SOMETIMES)
     for (i, j), r in relations.items():
         if r in apart and same.root(i) == same.root(j):
-            raise ContradictionError(f"{names[i]} and {names[j]} are one group, but told apart")
+            raise ContradictionError(
+                f"{names[i]} and {names[j]} are in one group, but distinguishable"
+            )
     return same.classes()

@@ -104,7 +104,7 @@ def _the_same(verdict: Verdict, what: str, everywhere: bool) -> str:
     aside = ", special values aside" if verdict.has_exceptions and not everywhere else ""
     return (
         f"For every {left} there is a {right}{over} with exactly the same {what}, and vice"
-        f" versa{aside}. What is measured here does not tell them apart."
+        f" versa{aside}. This measurement cannot distinguish them."
     )
 
 
@@ -112,22 +112,25 @@ def _not_known(verdict: Verdict, what: str) -> str:
     """Sentence on the consequences of an undecided verdict for a measurement, and on what may
     decide after all.
     """
-    said = f"Not known: a measurement may or may not tell {verdict.left} and {verdict.right} apart."
+    said = (
+        f"Not known: a measurement may or may not distinguish {verdict.left} and {verdict.right}."
+    )
     if verdict.notes[:1] and verdict.notes[0].startswith(open_note("")):
         return (
-            f"{said} Some values, perhaps negative ones, give both the same {what}; whether"
-            f" {verdict.domain} ones do is open. What helps: the values of your own machine;"
-            " 'disting equivalents' with --set lists what else does the same with positive values."
+            f"{said} Some values, perhaps negative ones, give both the same {what}; it is not"
+            f" known whether {verdict.domain} ones do. What helps: the values of your own"
+            " machine; 'disting equivalents' with --set lists what else gives the same response"
+            " with positive values."
         )
     if any(note.startswith(EXACT.in_words()) for note in verdict.notes):
         return (
             f"{said} They are too large for the exact decision, or it would take too long. What"
-            " helps: ask smaller ones of the same kind (fewer elements; of machines also without"
-            " dampers), and take the answer as theirs alone."
+            " helps: compare smaller ones of the same kind (fewer elements; for machines also"
+            " without dampers); the answer then holds for those only."
         )
     return (
-        f"{said} What was asked does not decide it. What helps: let everything decide, without"
-        " --conditions and --representation, where they were given."
+        f"{said} The chosen conditions do not decide it. What helps: remove --conditions and"
+        " --representation, if they were given."
     )
 
 
@@ -177,7 +180,7 @@ def _more_equations(ranks: Ranks, left: str, right: str, machines: bool, what: s
     every = f"{where}, every" if where and not ranks.all_rows else "Every"
     return (
         f"{every} {fewer} {what} satisfies {equations} that a {more} {what} satisfies only by"
-        " coincidence. That tells them apart."
+        " coincidence. That distinguishes them."
     )
 
 
@@ -187,6 +190,6 @@ def _varying(forms: Forms, left: str, right: str, what: str) -> str:
         return f"Towards high frequencies the phase of {delayed} falls without an end."
     fixed, free = (left, right) if forms.only_right else (right, left)
     return (
-        f"A coefficient of the {what} is one fixed number for every {fixed}; that of {free}"
-        " changes with its parameters."
+        f"A coefficient of the {what} is the same fixed number for every {fixed}; for {free} it"
+        " changes with the parameters."
     )

@@ -194,6 +194,6 @@ def _refuse(structures: Sequence[Chain | Network]) -> None:
     networks = [of_chain(s) if isinstance(s, Chain) else s for s in structures]
     if len({(n.sort, n.shape, n.order) for n in networks}) > 1:
         raise InputError(
-            "what to measure next is told of networks of one sort with the same numbers of inputs"
-            " and outputs and one sensor quantity: ask for those apart"
+            "what to measure next is known for networks of one kind with equal numbers of inputs"
+            " and outputs and one quantity: give others separately"
         )

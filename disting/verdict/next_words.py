@@ -31,7 +31,7 @@ WHY = {
     EXACT.name: "each has parameters that show all that the other one shows",
     REPEATS: "it shows in both what is known already",
 }
-UNSEEN = "nothing is seen"  # where nothing moves
+UNSEEN = "nothing moves"  # where nothing moves
 AnyMenu = Menu[Chain | Network]
 NOTHING = {
     Gain.REPEATS: "tells nothing new",
@@ -55,7 +55,7 @@ def in_words(further: AnyMenu, structure: int, item: Item) -> str:
         return NOTHING[gain] if further.place == "mass" or gain is Gain.REPEATS else UNSEEN
     left = left_over(further, structure, item)
     if not left:
-        return "surely tells it from the rest"
+        return "always separates it from the others"
     phrases = [
         f"{start} if that is {_among(further, kept)}"
         for start, kept in (
@@ -81,7 +81,7 @@ def conclusion(further: AnyMenu, structure: int) -> str:
     """The cheapest sets that are enough, or what is left by the best one, and why."""
     least = further.least(structure)
     if least:
-        return f"surely enough: {'; or '.join(map(option_in_words, least))}"
+        return f"sufficient: {'; or '.join(map(option_in_words, least))}"
     best = further.best(structure)
     if best is None:
         return "no experiment on this menu shows anything new"
@@ -104,11 +104,11 @@ def group_in_words(further: AnyMenu) -> str:
     right place, or two.
 
     >>> from disting.catalogs.next_files import next_catalog
-    >>> group_in_words(next_catalog(3, damped=True).further((9, 10)))
-    'one experiment tells each from the rest, but none does so at every mass: see which mass below'
+    >>> group_in_words(next_catalog(3, damped=True).further((9, 10)))[:57]
+    'one experiment separates each from the others, but none d'
     """
     if anywhere(further):
-        return f"all told apart by {anywhere(further)}"
+        return f"all separated by {anywhere(further)}"
     least = [further.least(k) for k in range(len(further.names))]
     counts = [len(options[0].items) if options else 0 for options in least]
     unknown, two = (
@@ -116,11 +116,13 @@ def group_in_words(further: AnyMenu) -> str:
         for wanted in (0, 2)
     )
     if unknown:
-        return f"no two experiments are known to tell {enumeration(unknown)} from the rest"
+        return f"no two experiments are known to separate {enumeration(unknown)} from the others"
     if two:
-        return f"no single experiment surely tells {enumeration(two)} from the rest, but two do"
+        return (
+            f"no single experiment always separates {enumeration(two)} from the others, but two do"
+        )
     return (
-        "one experiment tells each from the rest, but none does so at every"
+        "one experiment separates each from the others, but none does so at every"
         f" {further.place}: see which {further.place} below"
     )
 

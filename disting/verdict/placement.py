@@ -86,8 +86,8 @@ def _place_networks(
     spots = [(k, i) for k, nodes in enumerate(places) for i in nodes]
     if len(spots) > MOST_SPOTS:
         raise InputError(
-            f"these networks have {len(spots)} nodes together; {MOST_SPOTS} at most are looked at:"
-            " name some of them only"
+            f"these networks have {len(spots)} nodes together; {MOST_SPOTS} at most are"
+            " examined: name some of them only"
         )
     models, gains = zip(
         *(further_model(networks[k], kind, i, f"{networks[k].name} at {i}") for k, i in spots),

@@ -196,7 +196,7 @@ def difference_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdic
         return "program"
     unknown = [name for name in data if name not in again]
     if unknown:
-        return f"{short(unknown[0])} is no key of it"
+        return f"{short(unknown[0])} is not a key of it"
     kept = [name for name in again if name not in ("program", "verdicts")]
     return next((name for name in kept if not same_plain(data.get(name), again[name])), "")
 

@@ -126,7 +126,7 @@ class Verdict(NotebookTable):
         return self.sentence
 
     def __bool__(self) -> bool:
-        raise TypeError("a verdict is not true or false; look at its relation")
+        raise TypeError("a verdict is not true or false; use its relation")
 
     @property
     def error_bound(self) -> str:

@@ -152,14 +152,14 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
         stored = _stored(data)
         unknown = [key for key in data if key not in (*as_file(stored), *beside)]
         if unknown:
-            raise InputError(f"{short(unknown[0])} is no key of it")
+            raise InputError(f"{short(unknown[0])} is not a key of it")
         return stored
     except MisnamedError:
         raise
     except (*DAMAGED, DistingError, RecursionError) as reason:
         why = f"{short(str(reason))} is missing" if isinstance(reason, KeyError) else reason
         raise InputError(
-            f"the file of the verdict is damaged ({why}); write it anew with 'disting compare N:I"
+            f"the file of the verdict is damaged ({why}); write it again with 'disting compare N:I"
             " M:J --json'"
         ) from None
 
@@ -233,7 +233,7 @@ def _stored(data: dict[str, Any]) -> StoredVerdict:
         (read_experiment(pair["left"]), read_experiment(pair["right"])) for pair in pairs
     )
     if not VERSION.fullmatch(data["program"]):
-        raise InputError(f"{short(data['program'])} is no version")
+        raise InputError(f"{short(data['program'])} is not a version")
     beside = data["over_complex"]
     return StoredVerdict(
         models=(a, b),

@@ -78,7 +78,7 @@ class Verification:
         return summary(self, self.sentence)
 
     def __bool__(self) -> bool:
-        raise TypeError("a verification is not true or false; look at its status")
+        raise TypeError("a verification is not true or false; use its status")
 
     @property
     def sentence(self) -> str:
@@ -234,7 +234,7 @@ def _disagreeing(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> I
     if other:
         yield _not_agreeing(other)
     if stored.verdict.domain is not stored.query.view.domain:
-        yield "the domain is not the one that was asked for"
+        yield "the domain is not the requested one"
     if (stored.over_complex is not None) != has_more(stored.verdict):
         yield "the verdict over complex parameters is missing, or there for nothing"
 
@@ -250,13 +250,13 @@ def _false_equality(stored: StoredVerdict) -> Iterator[str]:
     equal = over_complex.relation is Relation.INDISTINGUISHABLE
     same = equal and over_complex.domain is Domain.COMPLEX
     if v.closure is Inclusion.EQUAL and not same:
-        yield "equality over complex parameters is told without evidence"
+        yield "equality over complex parameters is stated without evidence"
     if beside is None:
         return
     if beside.domain is not Domain.COMPLEX:
         yield "the verdict over complex parameters is over others"
     if (v.image, v.closure) != (beside.image, beside.closure):
-        yield "what is told of complex parameters is not what the verdict over them says"
+        yield "the statement on complex parameters differs from the verdict over them"
     if same and beside.closure not in (Inclusion.EQUAL, Inclusion.UNKNOWN):
         yield "equality over complex parameters is denied"
     if v.relation is not Relation.UNDECIDED and beside.relation is Relation.DISTINGUISHABLE:

@@ -15,7 +15,7 @@ WHOLE = {
         {"name": "a", "A": [["-a", 0], ["b", "-c"]], "B": [1, 0], "C": [0, 1], "D": 0},
         {"name": "b", "num": ["k"], "den": ["T", 1]},
         {"name": "c", "G": "(s + a)/(s**2 + b*s + c)"},
-        {"name": "d", "chain": "2:1+b2", "damped": True, "sensor": "velocity"},
+        {"name": "d", "chain": "2:1+b2", "damped": True, "quantity": "velocity"},
     ],
 }
 FORGED = (

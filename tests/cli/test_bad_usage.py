@@ -19,7 +19,10 @@ WORDS = [
     (("compare", "3:1+c", "3:1"), "for instance 3:4 or 3:4+b1+lag"),
     (("compare", "3:1+b4", "3:1"), "ground dampers sit at masses 1 to 3"),
     (("dampers", "41"), "1 to 40 masses"),
-    (("compare", "3:1", "3:2", "--bound", "k12=1..2", "--json"), "leave --json or --bound away"),
+    (
+        ("compare", "3:1", "3:2", "--bound", "k12=1..2", "--json"),
+        "--json is not supported with --bound",
+    ),
     (("compare", "3:1", "3:2", "--bound", "k12=5"), "a range is written like"),
     (("compare", "3:1", "3:2", "--bound", "x9=1..2"), "no parameter"),
     (("compare", "3:1", "3:2", "--bound", "k12=3..1"), "positive and not empty"),
@@ -39,7 +42,7 @@ WORDS = [
     (("verdicts", "3", "--conditions", "5-"), "conditions are written like"),
     (("verdicts", "3", "--conditions", "exact"), "conditions are written like"),
     (("verdicts", "3", "--quantity", "force"), "drives the machine; the quantity is what"),
-    (("verdicts", "3", "--quantity", "jerk"), "sensor is position, velocity or acceleration"),
+    (("verdicts", "3", "--quantity", "jerk"), "quantity is position, velocity or acceleration"),
     (("verdicts", "3", "--csv", "-", "--json", "-"), "not both"),
     (("verdicts", "3", "--markov", "-4"), "at least 1"),
     (("verdicts", "3", "--jobs", "0"), "at least 1"),
@@ -54,19 +57,22 @@ WORDS = [
     ((*CHAIN, "m1=1,m2=2,m3=3,k12=1,k23=" + "9" * 100), "choose other units"),
     (
         ("equivalents", "3:2", "--to", "3:5", "--formulas", "--also", "sensor=2"),
-        "leave one of them away",
+        "remove one of them",
     ),
     (("equivalents", "99:1", "--to", "3:1", "--set", "m1=1"), "at most 40 masses"),
     (("simulate", "--seed", "-1"), "at least 0"),
     (("simulate", "--quantum", "nan"), "finite and not negative"),
     (("simulate", "--samples", "99999999999"), "not enough memory"),
     (("fit",), "--demo shows a fit"),
-    ((*DEMO, "--test", "x.csv"), "--demo brings its own data"),
-    ((*DEMO, "--read", "to=velocity"), "--demo brings its own data"),
+    ((*DEMO, "--test", "x.csv"), "--demo has its own data"),
+    ((*DEMO, "--read", "to=velocity"), "--demo has its own data"),
     ((*DEMO, "--profiles"), "--out"),
     ((*DEMO, "--site", str(REPORTS)), "--out"),
     ((*DEMO, "--site", "no/such"), "holds no pages that 'disting report' wrote"),
-    ((*DEMO, "--fix", "zz=1"), "no candidate has a parameter zz; there are T1, Td, b1, m1"),
+    (
+        (*DEMO, "--fix", "zz=1"),
+        "no candidate has a parameter zz; their parameters are T1, Td, b1, m1",
+    ),
     ((*DEMO, "--bound", "zz=1..2"), "no candidate has a parameter zz"),
     ((*DEMO, "--thresholds", "30,nan,20"), "all positive"),
     (("fit", "--demo", "--masses", "3-1"), "are written like 3, 1-4 or 1,3"),
@@ -142,8 +148,8 @@ def test_no_cluster_answers():
     ],
 )
 def test_a_file_that_cannot_be_written_is_named_before_the_work(capsys, tmp_path, command):
-    assert f"{tmp_path} is no file" in refused(capsys, *command, str(tmp_path))
-    assert "an empty name is no file" in refused(capsys, *command, "")
+    assert f"{tmp_path} is not a file" in refused(capsys, *command, str(tmp_path))
+    assert "an empty name is not a file" in refused(capsys, *command, "")
     assert f"there is no folder {tmp_path}/a; make it first" in refused(
         capsys, *command, f"{tmp_path}/a/b.csv"
     )
@@ -165,11 +171,11 @@ def test_a_folder_that_cannot_be_made_is_named_before_the_work(capsys, tmp_path,
     [
         ("empty.csv", b"", "holds no columns of numbers"),
         ("header.csv", b"f,re,im\n", "holds no columns of numbers"),
-        ("text.csv", b"f,re,im\n1,2,3\n2,3,x\n", "line 3, column 3 (im): 'x' is no number"),
+        ("text.csv", b"f,re,im\n1,2,3\n2,3,x\n", "line 3, column 3 (im): 'x' is not a number"),
         ("nan.csv", b"f,re,im\n1,nan,3\n2,3,4\n", "line 2, column 2 (re): the value is not finite"),
-        ("bytes.csv", bytes(range(256)) * 9, "is no text file"),
+        ("bytes.csv", bytes(range(256)) * 9, "is not a text file"),
         ("latin.csv", bytes(range(128, 256)) * 20, "holds no columns of numbers"),
-        ("bytes.mat", bytes(range(256)) * 9, "is no MATLAB file"),
+        ("bytes.mat", bytes(range(256)) * 9, "is not a MATLAB file"),
         ("object.json", b"{ not json", "holds no columns of numbers"),
     ],
 )

@@ -21,7 +21,7 @@ def test_models_lists_the_family():
 @pytest.mark.full
 def test_models_asks_for_parameter_sets_only_where_it_is_told_to():
     listed = called("models", 6, "--no-cache", "--undamped").stdout
-    assert "· not asked (--identifiability asks)" in listed and "A98" not in listed
+    assert "· not computed (--identifiability)" in listed and "A98" not in listed
     rows = [
         line.split() for line in listed.splitlines() if line.split()[0].isdigit() and "[" in line
     ]
@@ -326,13 +326,13 @@ def test_models_tells_of_a_network_what_enters_and_what_is_determined():
     assert done.stdout.splitlines() == [
         "1~2, 2~#, 3~#; F1; S1  G(s) = ((k02 + k12)*s**2 + m2*s**4)/(k02*k12 + (k02*m1 + k12*m1"
         " + k12*m2)*s**2 + m1*m2*s**4)",
-        "what cannot be seen, as no way leads through it: k03, m3",
+        "without effect on the response, as no path leads through it: k03, m3",
         "6 parameters, only 4 determinable; globally: k02, k12, m1, m2; not: k03, m3; 2 can be"
         " chosen freely.",
     ]
     for arguments, wanted in (
         (["R0-p(R1,C1"], "it ends too early"),
-        (["R1-C1", "--damped"], "--damped belongs to numbered chains"),
+        (["R1-C1", "--damped"], "--damped is supported for numbered chains"),
         (["R1-C1", "--also", "lock=1"], "experiments are on machines"),
     ):
         refused = called("models", *arguments)

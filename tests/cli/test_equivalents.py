@@ -89,7 +89,7 @@ def test_formulas_in_three_languages():
         (("3:1", "--to", "3:11", "--set", VALUES + ",m1=2"), "m1 is given twice"),
         (("3:1", "--to", "3:11", "--set", VALUES.replace("m1=1", "m1=0")), "m1 = 0"),
         (("3:1", "--to", "3:11", "--set", "m1"), "name=number"),
-        (("1:1+b1", "--to", "1", "--set", "m1=1,b1=0"), "leave +b1 and its value away"),
+        (("1:1+b1", "--to", "1", "--set", "m1=1,b1=0"), "remove +b1 and its value"),
         (("1:1+b1", "--to", "1", "--set", "m1=1,b1=-1"), "is another model"),
         (("3:12", "--to", "3", "--set", VALUES), "models 1 to 11"),
         (("3:1", "--to", "x", "--set", VALUES), "masses:number"),
@@ -110,7 +110,7 @@ def test_the_last_sentence_says_among_what_it_was_looked_for():
     done = equivalents("2:2+delay", "--to", 2, "--set", "m1=1,m2=2,k12=100,Td=0.01")
     assert "2:1+delay: none exists, with positive parameters or any others: proven" in done.stdout
     said = (
-        "No other of the 3 structures of 2 masses, undamped, with a dead time, looked at gives this"
+        "No other of the 3 structures of 2 masses, undamped, with a dead time, searched gives this"
         " transfer function with"
     )
     assert f"\n{said} positive values." in done.stdout

@@ -242,7 +242,7 @@ def test_time_series_are_fitted_like_their_response():
             "a port is written like 2, last or 1:3",
         ),
         (("simulate", "2:1", "--undamped", "--set", "m1=1"), "the value of m2, k12 is missing"),
-        (("simulate", "--set", "m1=1"), "parameters belong to a model"),
+        (("simulate", "--set", "m1=1"), "--set needs a model"),
         (("simulate", "--friction", "x"), "friction is written like 1=0.3"),
         (("simulate", "--high", "2000"), "passes half the sampling rate"),
     ],

@@ -195,7 +195,7 @@ REFUSED = [
     (["motor", "--experiment", "{locked}"], "an experiment is written FILE:lock=2"),
     (["motor", "--experiment", "{locked}:torque=2"], "an experiment is written FILE:lock=2"),
     (["motor", "--experiment", "nowhere.csv:lock=2"], "there is no file nowhere.csv"),
-    (["motor", "load", "--sensor", "1,2", "--family"], "--family moves the sensor: leave it away"),
+    (["motor", "load", "--sensor", "1,2", "--family"], "--family moves the sensor and is not"),
     (["both", "--sensor", "1,2", "--test", "{motor}"], "motor.csv holds 1 response"),
 ]
 
@@ -277,4 +277,4 @@ def test_a_joint_fit_finds_the_twin_that_is_the_truth(tmp_path, left, setup, sai
 def test_what_names_candidates_twice_is_refused(tmp_path):
     np.savetxt(tmp_path / "a.csv", np.ones((9, 3)) * np.arange(1, 10)[:, None])
     done = called("fit", tmp_path / "a.csv", "--left", tmp_path / "fit.json", "--masses", "2")
-    assert done.returncode == 2 and "leave --masses away" in done.stderr
+    assert done.returncode == 2 and "remove --masses" in done.stderr

@@ -117,16 +117,16 @@ def test_names_are_no_formulas_of_a_spreadsheet(tmp_path):
 
 
 BAD = [
-    (("verdicts", "MODELS", "--damped"), "belongs to numbered chains"),
-    (("verdicts", "MODELS", "--quantity", "velocity"), '"sensor" at the chains'),
+    (("verdicts", "MODELS", "--damped"), "is supported for numbered chains"),
+    (("verdicts", "MODELS", "--quantity", "velocity"), '"quantity" at the chains'),
     (("verdicts", "no.json"), "no.json cannot be read (No such file or directory)"),
     (("verdicts", "ONE"), "has one model: there is nothing to compare"),
     (("compare", "MODELS:nobody", "3:1"), "no model is called 'nobody'"),
     (("compare", "MODELS:", "3:1"), "no model is called ''"),
     (("equivalents", "MODELS:nobody", "--to", "MODELS"), "no model is called 'nobody'"),
-    (("compare", "MODELS:drive", "3:1", "--bound", "m1=1..2"), "belongs to numbered chains"),
-    (("compare", "MODELS:drive", "MODELS:by hand", "--damped"), "belongs to numbered chains"),
-    (("compare", "MODELS:two leaks", "3:1+delay"), "no rational function"),
+    (("compare", "MODELS:drive", "3:1", "--bound", "m1=1..2"), "is supported for numbered chains"),
+    (("compare", "MODELS:drive", "MODELS:by hand", "--damped"), "is supported for numbered chains"),
+    (("compare", "MODELS:two leaks", "3:1+delay"), "not a rational function"),
 ]  # fmt: skip
 
 

@@ -215,11 +215,11 @@ def test_what_to_measure_next_on_what_a_fit_of_networks_left(fit_file):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"networks": []}, "is no whole file of a fit"),
-        ({"networks": [{"name": "x"}]}, "is no whole file of a fit"),
+        ({"networks": []}, "is not a complete fit file"),
+        ({"networks": [{"name": "x"}]}, "is not a complete fit file"),
         ({"fits": []}, "none of the networks"),
-        ({"fits": [{}]}, "is no whole file of a fit"),
-        ({"frequencies": {}}, "is no whole file of a fit"),
+        ({"fits": [{}]}, "is not a complete fit file"),
+        ({"frequencies": {}}, "is not a complete fit file"),
     ],
 )
 def test_damaged_files_are_refused(fit_file, tmp_path, change, words):
@@ -236,23 +236,23 @@ def test_damaged_files_are_refused(fit_file, tmp_path, change, words):
         ("plan R0-C1 --set R0=1,C1=1", "name the structure to exclude too"),
         ("plan R0-C1 2:1 --set R0=1,C1=1", "2:1 is a numbered chain, R0-C1 a network"),
         ("plan R0-C1 R0-L1 --set R0=1 --noise 0.1 --band 1..2", "the value of C1 is missing"),
-        ("plan R0-C1 R0-C1 --set R0=1,C1=1 --noise 0.1 --band 1..2", "no rival of itself"),
+        ("plan R0-C1 R0-C1 --set R0=1,C1=1 --noise 0.1 --band 1..2", "not a rival of itself"),
         ("plan R0-C1 R0-L1 --set R0=1,C1=1 --noise 0.1", "--band 5..300"),
         ("simulate R0-C1", "the value of C1, R0 is missing; the parameters of R0-C1 are C1, R0"),
         ("simulate R0-P1 --set R0=1,P1=1", "the value of n1 is missing"),
-        ("simulate R0-P1 --set R0=1,P1=1,n1=2", "n1 = 2.0 is no exponent"),
+        ("simulate R0-P1 --set R0=1,P1=1,n1=2", "n1 = 2.0 is not an exponent"),
         ("simulate R0-C1 --set R0=1,C1=0", "values of elements are positive"),
         ("simulate R0-C1 --set R0=1,C1=1,L1=1", "L1: no parameter of R0-C1"),
-        ("simulate R0-C1 --set R0=1,C1=1 --quantity velocity", "--quantity belongs to machines"),
-        ("simulate R0-C1 --set R0=1,C1=1 --response position", "--response belongs to machines"),
-        ("simulate R0-C1 --set R0=1,C1=1 --damped", "--damped belongs to numbered chains"),
-        ("simulate R0-C1 --set R0=1,C1=1 --friction 1=1", "friction belongs to machines"),
+        ("simulate R0-C1 --set R0=1,C1=1 --quantity velocity", "--quantity is supported for machines"),
+        ("simulate R0-C1 --set R0=1,C1=1 --response position", "--response is supported for machines"),
+        ("simulate R0-C1 --set R0=1,C1=1 --damped", "--damped is supported for numbered chains"),
+        ("simulate R0-C1 --set R0=1,C1=1 --friction 1=1", "friction is supported for machines"),
         ("simulate '1~2; F1; S1 S2' --set m1=1,m2=1,k12=1", "such as --csv frf.csv for frf-1-1.csv"),
         (
             "plan '1~2; F1; S1 S2' '1~2; F1; S1' --set m1=1,m2=1,k12=1 --noise 0.1 --band 1..9",
             "have the same outputs and inputs",
         ),
-        ("simulate --notation spice", "parameters belong to a model"),
+        ("simulate --notation spice", "--set needs a model"),
     ],
 )  # fmt: skip
 def test_bad_input(command, words):
@@ -280,7 +280,7 @@ VOIGT, LADDER = "R0-p(R1,C1)-p(R2,C2)-p(R3,C3)", "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"
 @pytest.mark.full
 def test_formulas_in_three_languages():
     said = called("equivalents", VOIGT, "--to", LADDER, "--formulas").stdout
-    assert said.startswith(f"{VOIGT}: of 1 other network 1 can do the same for all positive values")
+    assert said.startswith(f"{VOIGT}: 1 of 1 other network equivalent for all positive values")
     assert f"\n\n{LADDER}   (primed)\nidentity checked, probability of error" in said
     assert "R0' = R0\n" in said
     assert r"R_{0}' &= R_{0} " in called("equivalents", VOIGT, "--to", LADDER, "--latex").stdout
@@ -309,7 +309,7 @@ def test_values_of_large_circuits_by_synthesis():
     values = "R0=1,R1=2,R2=3,R3=1,C1=1,C2=1/2,C3=3"
     done = called("equivalents", LADDER, "--to", VOIGT, "--set", values)
     assert "R0 = 1, R1 = 5.56471, R2 = 0.35171, R3 = 0.0835808" in done.stdout
-    assert "all positive ones, but for exchanges of branches that are alike" in done.stdout
+    assert "all positive ones, except exchanges of identical branches" in done.stdout
     told = json.loads(
         called("equivalents", LADDER, "--to", VOIGT, "--set", values, "--json").stdout
     )
@@ -322,7 +322,7 @@ def test_other_values_of_the_same_network():
     done = called("equivalents", cell, "--to", cell, "--set", values)
     assert done.returncode == 0
     assert "C1 = 1, C2 = 1, R0 = 1, R1 = 3, R2 = 2" in done.stdout
-    assert done.stdout.startswith(f"{cell}: of 1 network 1 can do the same")
+    assert done.stdout.startswith(f"{cell}: 1 of 1 network equivalent")
 
 
 def test_values_at_which_there_is_none_are_explained():

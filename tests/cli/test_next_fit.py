@@ -179,7 +179,8 @@ def test_a_set_of_one_has_nothing_to_tell_apart(tmp_path):
         path = fit_file(tmp_path / "one.json", selected)
         done = called("next", path)
         assert done.returncode == 0 and done.stdout.startswith(
-            f"{path} leaves 3:1 alone: no further measurement is needed to tell structures apart; {said}"
+            f"{path} leaves 3:1 alone: no further measurement is needed to distinguish"
+            f" structures; {said}"
         )
         plain = json.loads(called("next", path, "--json", "-").stdout)
         assert plain["first"] + "\n" == done.stdout and plain["again"] == ""
@@ -195,14 +196,14 @@ def test_several_responses_and_a_fit_that_explains_nothing_are_warned_of(tmp_pat
     path = fit_file(tmp_path / "fit.json", *members, explained=False, responses=[{}, {}])
     done = called("next", path)
     assert done.returncode == 0 and "explains its data" in done.stderr
-    assert "has 2 responses; the menu starts from the first one alone" in done.stderr
+    assert "has 2 responses; the menu starts from the first one only" in done.stderr
 
 
 def test_a_file_that_does_not_tell_its_lines_still_has_its_menu(tmp_path):
     twin = member(FREE, VALUES, **{"3:11": twin_values()})
     path = fit_file(tmp_path / "fit.json", twin, frequencies={"low": 0, "high": 0, "lines": 0})
     done = called("next", path)
-    assert "does not name the lines of its data" in done.stdout and "surely enough" in done.stdout
+    assert "does not name the lines of its data" in done.stdout and "sufficient: " in done.stdout
     assert json.loads(called("next", path, "--json", "-").stdout)["measured"] is None
 
 

@@ -180,10 +180,10 @@ def test_what_is_the_same_for_these_values_names_no_command_that_denies_it():
     said = called("plan", *pair, "--noise", 0.1, "--band", "0.5..5").stdout
     assert said.startswith("impossible for these values: 3:1+b1+b3 fits them up to rounding")
     assert said.splitlines()[0].endswith(
-        "; another sensor, or the force elsewhere, may tell them apart"
+        "; another sensor, or the force elsewhere, may separate them"
     )
     done = called("next", *pair[:3])
-    assert "are told apart by the present measurement already" in done.stdout
+    assert "are distinguishable by the present measurement already" in done.stdout
 
 
 @pytest.mark.slow
@@ -213,7 +213,7 @@ def test_plan_and_next_answer_for_fits_of_random_drives(tmp_path, n_masses):
         ((*PAIR, "--noise", "nan"), "the noise of a line lies"),
         ((*PAIR, "--noise", "0.1", "--lines", "3"), "at least 8 lines"),
         (("2:1+b1", *PAIR[2:], "--noise", "0.1"), "name the structure to exclude"),
-        (("2:1+b1", "2:1+b1", *PAIR[2:], "--noise", "0.1"), "no rival of itself"),
+        (("2:1+b1", "2:1+b1", *PAIR[2:], "--noise", "0.1"), "not a rival of itself"),
         (("nothing.json",), "nothing.json cannot be read"),
         (("fit.json", "2:1"), "names structures and values itself"),
         ((*PAIR, "--noise", "nothing.csv"), "nothing.csv"),

@@ -46,7 +46,10 @@ WITH_A_REMEDY = [
     ),
     (("compare", "3:1", "3:99"), "'disting models 3' lists them"),
     (("compare", "3:1+b7", "3:2"), "sit at masses 1 to 3, not at 7"),
-    (("compare", "3:1", "3:2", "--bound", "k9=0..1"), "k9; there are m1, m2, m3, k12, k23"),
+    (
+        ("compare", "3:1", "3:2", "--bound", "k9=0..1"),
+        "k9; their parameters are m1, m2, m3, k12, k23",
+    ),
     (("plan", "1:1", "1:1+b1", "--set", "m1=1", "--noise", "2%"), "--noise 0.02 for 2 %"),
     (("simulate", "1:1", "--set", "m1=1", "--low", "900"), "not low = 900.0, high = 250.0"),
     (("next", "3:1", "--cost", "sensor=-1"), "is a positive number, not -1"),
@@ -101,7 +104,7 @@ def test_lists_of_models_fit_eighty_columns(n: int) -> None:
 
 def test_a_long_list_is_told_at_once_and_says_what_it_leaves_away() -> None:
     told = called("models", 8).stdout
-    assert told.count("[1") >= 574 and "· not asked (--ranks asks)" in told
+    assert told.count("[1") >= 574 and "· not computed (--ranks)" in told
 
 
 def test_names_of_a_size_that_is_known_are_arguments() -> None:

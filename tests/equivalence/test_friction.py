@@ -94,7 +94,7 @@ def test_lag_and_dead_time_stay_what_they_are():
 def test_an_element_near_zero_is_named():
     given = chain_of("3:1+b3", Family(3, damped=True))
     listing = equivalents(given, values_of(given), "3:1+b1+b3").listings[0]
-    assert not listing.complete and "cannot be told from zero" in listing.sentence
+    assert not listing.complete and "cannot be distinguished from zero" in listing.sentence
 
 
 def test_text_for_structures():

@@ -181,15 +181,15 @@ def test_the_same_whatever_the_order_and_some_of_them_only(engine):
 def test_a_battery_is_told_apart_at_an_inner_node(capsys):
     assert main(["next", *RANDLES]) == 0
     shown = capsys.readouterr().out
-    assert "surely enough: the voltage at node 3 measured (cost 1)" in shown
-    assert "nothing is seen" in shown
+    assert "sufficient: the voltage at node 3 measured (cost 1)" in shown
+    assert "nothing moves" in shown
     assert "mass" not in shown and "force" not in shown and "sensor does" not in shown
 
 
 @pytest.mark.full
 def test_compartments_and_machines(capsys):
     assert main(["next", "1>2,2>1,2>0; in 1; out 1", "1>2,2>1,1>0; in 1; out 1"]) == 0
-    assert "surely enough: the contents of compartment 2 measured" in capsys.readouterr().out
+    assert "sufficient: the contents of compartment 2 measured" in capsys.readouterr().out
     assert main(["next", "1~2,2~3; F1; S1", "1~2,1~3; F1; S1", "--json", "-"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["anywhere"] == ["sensor", "force", "lock"]
@@ -200,7 +200,7 @@ def test_compartments_and_machines(capsys):
 def test_networks_with_two_sensors_and_with_constant_phase_elements(capsys):
     assert main(["next", "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"]) == 0
     told = capsys.readouterr().out
-    assert "what tells all of them apart: a sensor at any further mass" in told
+    assert "what separates all of them: a sensor at any further mass" in told
     assert main(["next", "R0-p(R1,P1)", "p(R0,R1-P2)"]) == 0
     assert "the voltage at any further node measured (cost 1)" in capsys.readouterr().out
 
@@ -209,7 +209,7 @@ def test_networks_with_two_sensors_and_with_constant_phase_elements(capsys):
     ("texts", "sentence"),
     [
         (["R1-p(R2,C1)"], "one network"),
-        (["1~2,2~3; F1; S1", "R1-p(R2,C1)"], "told apart by the present measurement already"),
+        (["1~2,2~3; F1; S1", "R1-p(R2,C1)"], "distinguishable by the present measurement already"),
     ],
 )
 def test_what_is_no_group(texts, sentence, capsys):
@@ -220,7 +220,7 @@ def test_what_is_no_group(texts, sentence, capsys):
 
 def test_networks_without_a_menu_in_common(engine):
     pair = [(t, network_of(t)) for t in ("1~2; F1; S1", "p(R1,C1)")]
-    with pytest.raises(InputError, match="one sort"):
+    with pytest.raises(InputError, match="one kind"):
         menu_for(pair, engine)
 
 

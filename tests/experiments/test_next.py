@@ -238,12 +238,12 @@ def test_command_with_dampers_to_the_ground(capsys, monkeypatch):
 @pytest.mark.parametrize(
     ("arguments", "status", "says"),
     [
-        (["3:1", "3:4"], 0, "told apart by the present measurement already"),
-        (["3:3"], 0, "told from all other structures"),
+        (["3:1", "3:4"], 0, "distinguishable by the present measurement already"),
+        (["3:3"], 0, "distinguishable from all other structures"),
         (["3:1", "4:1"], 2, "different numbers of masses"),
         (["7:1"], 2, "name all structures"),
         (["3:2+lag"], 2, "name all structures"),
-        (["3:1+b1"], 0, "told from all other structures"),
+        (["3:1+b1"], 0, "distinguishable from all other structures"),
         (["3:4+b1+b3", "3:4+b3+b1"], 2, "are the same structure"),
         (["3:1", "--cost", "gold=1"], 2, "costs are those of"),
     ],

@@ -82,7 +82,7 @@ def test_places_that_do_not_exist(texts, said):
 def test_more_things_than_the_right_model_has():
     with pytest.raises(InputError, match="cannot all be different ones"):
         compare_everywhere(A[1], Chain(1, damped=True), ["sensor=1", "lock=2"])
-    with pytest.raises(InputError, match="200 at most"):
+    with pytest.raises(InputError, match="at most 200"):
         compare_everywhere(
             Chain(6, damped=False), Chain(6, damped=False), [f"sensor={i}" for i in range(1, 7)]
         )
@@ -127,7 +127,9 @@ def test_one_chain_is_told_apart_by_its_experiments(capsys):
     assert f"  {second}  [1FS]=[2]=[3] | [1F]=[2]=[3S]\n" in out.out
     assert "places     masses 2/3 of 3:1/3:1" in out.out
     code, out = told(capsys, "3:1", "3:1", "--also", "brake=2:1")
-    assert out.out.startswith("DEPENDS ON THE PLACES: 3:1 and the other 3:1 are told apart or not")
+    assert out.out.startswith(
+        "DEPENDS ON THE PLACES: 3:1 and the other 3:1 are distinguishable or not"
+    )
     assert (
         "masses 2/1 of 3:1/the other 3:1: 3:1 with brake 1 at mass 2 (damped, acceleration, "
         in out.out
@@ -186,7 +188,7 @@ def test_command_line_as_json(capsys):
         (("--also", "sensor=7"), "there is no mass 7 in a chain with masses 1 to 3"),
         (("--also", "lock=1+2+3"), "leave one that moves"),
         (("--also", "inertia=1:-2"), "a known inertia is positive"),
-        (("--also", "sensor=1", "--prove"), "leave --prove and --bound away"),
+        (("--also", "sensor=1", "--prove"), "--prove and --bound are not supported"),
     ],
 )
 def test_command_line_errors_are_one_sentence(capsys, also, said):

@@ -411,7 +411,7 @@ def test_what_is_not_determined_has_no_percentage():
     found = select(noisy(ONE_MASS), [ONE])
     errors = replace(found.selected.practical, relative_errors={"m1": 92.0, "b1": 0.5})
     badly = replace(found, selected=replace(found.selected, practical=errors), members=())
-    assert "known badly: m1 not at all, b1 to ± 50 %" in suspicions(badly)
+    assert "poorly determined: m1 not at all, b1 to ± 50 %" in suspicions(badly)
 
 
 @pytest.mark.full

@@ -96,7 +96,7 @@ def test_plan_and_next_say_the_same_even_of_a_file_that_does_not(rigid, tmp_path
         path.write_text(json.dumps(plain), encoding="utf-8")
         plan, further = called("plan", path), called("next", path)
         no_rival = "not a rival: 3:1+b2+delay, 4:1+b3+delay contain 2:1+b1+delay"
-        assert "the fit left no rival: there is nothing to tell apart" in plan.stdout
+        assert "the fit left no rival: there is nothing to distinguish" in plan.stdout
         assert no_rival in plan.stdout and no_rival in further.stdout
         assert further.stdout.startswith(
             f"{path} leaves 2:1+b1+delay alone: no further measurement"

@@ -297,7 +297,7 @@ def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--models", "3:1"], "is no network"),
+        (["--models", "3:1"], "is not a network"),
         (["--models", "R1-C1", "--models", "1=2; F1; S1"], "fit them apart"),
         (
             ["--models", "R1-C1", "--masses", "3"],

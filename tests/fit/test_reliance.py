@@ -111,7 +111,8 @@ def test_what_is_known_badly_says_what_helps():
 
 def test_zero_has_no_sign():
     assert (
-        Statement(Kind.RANGE, "damping", 0.0, -0.0, "", 1, 1).text == "damping: 0, whichever it is"
+        Statement(Kind.RANGE, "damping", 0.0, -0.0, "", 1, 1).text == "damping: 0, in every"
+        " structure"
     )
 
 

@@ -178,7 +178,7 @@ def test_the_order_of_the_searched_model_is_kept():
 BAD = {
     "no value for b": {"a": 1},
     "no parameter c": {"a": 1, "b": 2, "c": 3},
-    "0.1 is a float and no exact number": {"a": 0.1, "b": 2},
+    "0.1 is a float, which is not exact": {"a": 0.1, "b": 2},
     "the value of a is a number, not 'k'": {"a": "k", "b": 2},
     "not of type NoneType": {"a": None, "b": 2},
     "divides by zero": {"a": "1/0", "b": 2},

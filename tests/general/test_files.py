@@ -18,7 +18,7 @@ WHOLE = """{"title": "Leaks & drives", "s": "p", "models": [
   {"name": "low pass", "num": ["k"], "den": ["T", 1]},
   {"name": "band pass", "num": "k*p", "den": "p**2 + 0.1*w*p + w**2"},
   {"name": "notch", "G": "(p**2 + w**2)/(p**2 + 2*z*w*p + w**2)"},
-  {"name": "drive", "chain": "2:1+b2", "damped": true, "sensor": "velocity"}]}"""
+  {"name": "drive", "chain": "2:1+b2", "damped": true, "quantity": "velocity"}]}"""
 
 
 def file(folder, text):
@@ -107,13 +107,13 @@ def test_a_parameter_that_cancels_is_kept(tmp_path):
 
 
 REFUSED = {
-    "is no key of a model": one(num=["k"], den=["T", 1], gain=2),
-    "is no key of the file": '{"model": [], "models": [{"name": "x", "G": "1/(s+a)"}]}',
+    "is not a key of a model": one(num=["k"], den=["T", 1], gain=2),
+    "is not a key of the file": '{"model": [], "models": [{"name": "x", "G": "1/(s+a)"}]}',
     "'num' is given twice": '{"models": [{"name": "x", "num": [1], "num": [2], "den": ["a"]}]}',
     "model 'x': a model is a state space": one(),
     "this one is num and G": one(num=["k"], G="k/(s + a)"),
     "model 1 has no name": '{"models": [{"G": "1/(s + a)"}]}',
-    "model 1 is no object": '{"models": ["1/(s + a)"]}',
+    "model 1 is not an object": '{"models": ["1/(s + a)"]}',
     "names 2 models; give each": '{"models": [{"name": "x", "G": "1/(s+a)"}, {"name": "x", "G": "a"}]}',
     "one object in braces": '[{"name": "x", "G": "1/(s + a)"}]',
     "a list of models": '{"models": []}',
@@ -128,15 +128,15 @@ REFUSED = {
     "not of type NoneType": one(num=["a"], den=None),
     "not of type dict": one(num={"s": 1}, den=["a", 1]),
     "is no expression": one(G="k/(s +"),
-    "is no rational expression": one(G="exp(a)"),
+    "is not a rational expression": one(G="exp(a)"),
     "a matrix of transfer functions is a list of rows": one(G=["k"]),
     "contain the frequency variable s": one(num=["s"], den=["a", 1]),
-    "s is a parameter": '{"s": "p", "models": [{"name": "x", "G": "1/(p + s)"}]}',
+    "s is the frequency variable": '{"s": "p", "models": [{"name": "x", "G": "1/(p + s)"}]}',
     "is the name of the frequency variable": '{"s": "2*p", "models": [{"name": "x", "G": "a"}]}',
-    "NaN is no number": '{"models": [{"name": "x", "num": [NaN], "den": ["a", 1]}]}',
-    "-Infinity is no number": '{"models": [{"name": "x", "num": [-Infinity], "den": ["a", 1]}]}',
+    "NaN is not a number": '{"models": [{"name": "x", "num": [NaN], "den": ["a", 1]}]}',
+    "-Infinity is not a number": '{"models": [{"name": "x", "num": [-Infinity], "den": ["a", 1]}]}',
     "digits and zeros at most": '{"models": [{"name": "x", "num": [1e999999999], "den": ["a"]}]}',
-    "leave +delay away": one(chain="3:1+delay"),
+    "remove +delay": one(chain="3:1+delay"),
     "a chain of more than 6 masses": one(chain="7:1"),
     "a chain of more than": one(chain="99:1"),
     "for instance 3:4": one(chain="three"),
@@ -149,8 +149,8 @@ REFUSED = {
     "its name has 1 to 60": '{"models": [{"name": "a\\u001b[2J", "G": "a"}]}',
     "not ' x'": '{"models": [{"name": " x", "G": "a"}]}',
     "printable characters, with": '{"models": [{"name": "\\ud800", "G": "a"}]}',
-    "this is no JSON": '{"models": [',
-    "no text in UTF-8": b"\xff\xfe{",
+    "this is not JSON": '{"models": [',
+    "not text in UTF-8": b"\xff\xfe{",
     "nested too deeply": "[" * 100_000,
     "is larger than 5 MB": b" " * (LARGEST + 1),
     "more than 300": json.dumps({"models": [{"name": "x"}] * (MOST_MODELS + 1)}),
@@ -179,5 +179,5 @@ def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path):
 
 def test_models_of_a_list_are_found_by_their_names():
     found = models_of({"models": [{"name": "low pass", "num": ["k"], "den": ["T", "1"]}]})
-    with pytest.raises(InputError, match="no model is called 'high pass'; there are low pass"):
+    with pytest.raises(InputError, match="no model is called 'high pass'; the models are low pass"):
         found["high pass"]

@@ -108,7 +108,7 @@ def test_one_expression_is_a_whole_transfer_function():
         matrix, sp.SparseMatrix([0, 1 / m]), sp.ImmutableMatrix([[k, 0]]), sp.Integer(0), s=s
     )
     assert space == Model.from_transfer_function(k / (m * s**2 + k))
-    with pytest.raises(InputError, match="no rational expression"):
+    with pytest.raises(InputError, match="not a rational expression"):
         Model.from_transfer_function(sp.exp(-s) / (s + k))
 
 
@@ -224,19 +224,19 @@ BAD_SPACES = {
     "these are 2 outputs and 1 inputs: .* MatrixModel": (A, B, [[1], [0]]),
     "C is 1 x 1 .*, not 0 x 0": (A, B, []),
     "D is 1 x 1 .*, not 1 x 2": (A, B, C, [[0, 0]]),
-    "0.1 is a float and no exact number; write it as text": ([[-0.1]], B, C),
+    "0.1 is a float, which is not exact; write it as text": ([[-0.1]], B, C),
     "not of type NoneType": ([[None]], B, C),
     "not of type complex": ([[1j]], B, C),
     "not True": ([[True]], B, C),
     "frequency variable s": ([["-s"]], B, C),
     "divides by zero": ([["1/(k-k)"]], B, C),
     "the output does not depend on the input": (A, ["0"], C),
-    "'k.2' is no rational expression": ([["k^2"]], B, C),
+    "'k.2' is not a rational expression": ([["k^2"]], B, C),
     "'k [+]' is no expression": ([["k +"]], B, C),
-    "'sin.k.' is no rational expression": ([["sin(k)"]], B, C),
+    "'sin.k.' is not a rational expression": ([["sin(k)"]], B, C),
     "exponents are whole": ([["k**m"]], B, C),
     "'k[*][*]0.5': exponents are whole": ([["k**0.5"]], B, C),
-    "sin.k12. is no rational": ([[sp.sin(k12)]], B, C),
+    "sin.k12. is not a rational": ([[sp.sin(k12)]], B, C),
     "sqrt": ([[sp.sqrt(k12)]], B, C),
     "0.25 is a float": ([[sp.Float(0.25)]], B, C),
     "ASCII": ([["α"]], B, C),

@@ -70,7 +70,7 @@ def test_parts_are_those_with_all_coefficients_independent(text):
 def is_part(text, missing, wanted):
     try:
         return jacobian_rank(text, missing) == wanted
-    except (ValueError, sympy.PolynomialError):  # nothing varies, or nothing is seen
+    except (ValueError, sympy.PolynomialError):  # nothing varies, or nothing moves
         return False
 
 

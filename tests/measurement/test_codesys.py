@@ -44,7 +44,9 @@ def test_samples_and_rate(tmp_path, flags, unit):
 @pytest.mark.parametrize("flags", ["", "0", "48", "x"])
 def test_an_unknown_unit_of_time_is_asked_for(tmp_path, flags):
     path = trace(tmp_path / "a.csv", both(), flags)
-    with pytest.raises(InputError, match=r"no unit of time .* give --read sampling_rate=HZ"):
+    with pytest.raises(
+        InputError, match=r"not a known unit of time.* give --read sampling_rate=HZ"
+    ):
         read_time_series(path, "PLC_PRG.lrTorque", "PLC_PRG.lrAngle")
     found = read_time_series(path, "PLC_PRG.lrTorque", "PLC_PRG.lrAngle", sampling_rate=500)
     assert found.sampling_rate == 500 and len(found) == COUNT
@@ -96,7 +98,7 @@ GAP = PERIOD * np.delete(np.arange(COUNT + 5), range(50, 55))
         (both(other=TIMES[::-1]), "was sampled at other times"),
         (both(GAP), "missing or doubled behind the time 49000"),
         (both(TIMES // 2000), "a resolution of microseconds"),
-        (both(["x"] * COUNT), "line 8: 'x' is no time"),
+        (both(["x"] * COUNT), "line 8: 'x' is not a time"),
         ({"PLC_PRG.sState": (TIMES, ["run"] * COUNT)}, "no variable with numbers"),
         ({}, "no variable with numbers"),
         ({"a": ([1], [1]), "b": ([1], [2])}, "has one sample"),

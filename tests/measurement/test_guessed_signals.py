@@ -29,7 +29,7 @@ def test_names_tell_input_and_output_of_a_text_file(tmp_path):
         and not any("by their names" in n for n in told.notes)
     )
     assert any("input taken as iq [A], output as motor angle [rad]" in note for note in found.notes)
-    with pytest.raises(InputError, match=r"give both; there are iq \[A\], iq_ref"):
+    with pytest.raises(InputError, match=r"give both; the signals are iq \[A\], iq_ref"):
         read(path, input="iq [A]")
 
 
@@ -40,14 +40,14 @@ def test_names_tell_input_and_output_of_a_matlab_file(tmp_path):
     scipy.io.savemat(path, {"torque": U, "position": Y, "speed": Y, "fs": 1000.0})
     with pytest.raises(
         InputError,
-        match=r"which signal is the input, which the output.*there are fs, position, speed, torque",
+        match=r"which signal is the input, which the output.*the signals are fs, position, speed, torque",
     ):
         read(path)
 
 
 def test_names_of_the_real_axis_do_not_tell():
     with pytest.raises(
-        InputError, match="--read output=NAME; there are gtau, kp, kv, qg, qm, t, vir"
+        InputError, match="--read output=NAME; the signals are gtau, kp, kv, qg, qm, t, vir"
     ):
         read(measured_data("EMPS.mat"))
 
@@ -121,7 +121,7 @@ def test_an_export_of_twincat_scope(tmp_path, mark, decimal, own):
     path.write_text(
         path.read_text().replace(f"{mark}3{decimal}0{mark}", f"{mark}3{decimal}0{mark}x", 1)
     )
-    with pytest.raises(InputError, match=r"line 13, column .*is no number"):
+    with pytest.raises(InputError, match=r"line 13, column .*is not a number"):
         read(path)
 
 
@@ -156,10 +156,10 @@ def test_a_trace_of_sinumerik(tmp_path):
     assert np.allclose(found.frequency, np.arange(2, 22))
     assert found.reading.endswith("; left out: load (each 0.004 s), not each 0.001 s")
     for text, said in (
-        (trace()[:-40], "no whole XML"),
+        (trace()[:-40], "not complete XML"),
         (trace(frames=2), "a trace of 2 frames; export one"),
         (trace(lost="3"), r"samples of this trace are lost \(3\)"),
-        (trace(first="x"), "record 6, time: 'x' is no number"),
+        (trace(first="x"), "record 6, time: 'x' is not a number"),
         (trace().replace('f1="', 'f9="'), "record 1 of this trace has no value of f1"),
         (trace().replace("<dataSignal", "<signal"), "no signals or no records"),
     ):

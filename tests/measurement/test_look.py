@@ -141,7 +141,7 @@ REFUSED = {
     "no number": ("f [Hz],Re,Im", [*bode_rows(9), (10.0, float("nan"), 1.0)], "is not finite"),
     "no frequency": ("a,b,c", bode_rows(), "no column is a frequency"),
     "no imaginary part": ("f [Hz],Re,c", bode_rows(), "imaginary parts: 0"),
-    "a unit of frequency": ("f [Furlong],Re,Im", bode_rows(), "no unit of frequency"),
+    "a unit of frequency": ("f [Furlong],Re,Im", bode_rows(), "not a known unit of frequency"),
     "no names of signals": ("t [s],a,b", bode_rows(), "which signal is the input"),
     "negative coherence": (
         "f [Hz],Re,Im,coherence",

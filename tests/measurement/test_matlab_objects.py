@@ -50,7 +50,7 @@ def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
     assert peak.omega[np.argmax(np.abs(peak.to_quantity("velocity").G))] == pytest.approx(
         193.5, abs=0.1
     )  # pole of its model: 191
-    assert any("taken as rad/s although Hz is said" in said for said in found.suspicions)
+    assert any("taken as rad/s although Hz is stated" in said for said in found.suspicions)
     assert (
         read(path, response="frf.Pp[1,1]", quantity="position")
         == found
@@ -98,7 +98,7 @@ def test_round_numbers_are_held_against_the_unit(tmp_path):
         read(stored(tmp_path, frd(HERTZ)), response="frf[1]", frequency_unit="Hz").frequency, HERTZ
     )
     for wrong in ("furlong", "rpm with time in minutes"):
-        with pytest.raises(InputError, match="is no unit of frequency that is known"):
+        with pytest.raises(InputError, match="is not a known unit of frequency"):
             read(stored(tmp_path, frd(FrequencyUnit_=wrong)), response="frf[1]")
 
 
@@ -144,7 +144,7 @@ def test_the_only_response_needs_no_name_and_structs_have_fields(tmp_path):
             InputError, match=r"holds 2 signals; choose one, from 1, as record\.both\[2\]"
         ):
             read_time_series(path, "record.u", wrong, sampling_rate=10)
-    with pytest.raises(InputError, match=r"record\.u\[2\] is no single signal"):
+    with pytest.raises(InputError, match=r"record\.u\[2\] is not a single signal"):
         read_time_series(path, "record.u[2]", "record.u", sampling_rate=10)
 
 

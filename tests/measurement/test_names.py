@@ -74,10 +74,10 @@ SPECTRA = [
 @pytest.mark.parametrize("header", SPECTRA)
 def test_a_power_spectrum_is_no_response(tmp_path, header):
     path = table(tmp_path / "a.csv", header, F, *[F] * header.count(","))
-    with pytest.raises(InputError, match="is no frequency response, it has neither a phase"):
+    with pytest.raises(InputError, match="is not a frequency response, it has neither phase"):
         read(path)
     done = called("fit", path)
-    assert done.returncode == 2 and "neither a phase nor an input" in done.stderr
+    assert done.returncode == 2 and "neither phase nor input" in done.stderr
 
 
 def test_a_response_beside_spectra_is_read(tmp_path):

@@ -125,7 +125,7 @@ def test_time_series_of_a_matlab_file(tmp_path):
     assert read_time_series(path, "u", "y", sampling_rate=7).sampling_rate == 7
     with pytest.raises(InputError, match=r"two holds 2 signals; choose one, from 1, as two\[2\]"):
         read_time_series(path, "u", "two")
-    with pytest.raises(InputError, match="no positive number"):
+    with pytest.raises(InputError, match="not a positive number"):
         read_time_series(path, "u", "y", sampling_rate="u")
     scipy.io.savemat(path, signals)
     with pytest.raises(InputError, match="give --read sampling_rate="):
@@ -197,7 +197,7 @@ def test_universal_files_of_pyuff(tmp_path):
     assert (first.output, first.input) == (Signal("node 3 +z", "m/s"), Signal("node 1 -z", "N"))
     assert second.coherence is None and "taken as acceleration" in second.notes[0]
     with pytest.raises(
-        InputError, match=r"number 3; there are: 1: node 3 .z per node 1 -z; 2: node 5"
+        InputError, match=r"number 3; its responses are: 1: node 3 .z per node 1 -z; 2: node 5"
     ):
         read(path, record=3)
 
@@ -205,7 +205,7 @@ def test_universal_files_of_pyuff(tmp_path):
 @pytest.mark.parametrize(
     ("good", "bad", "words"),
     [
-        ("      12", "      13", "12 values where 13 are said"),
+        ("      12", "      13", "12 values, but the header states 13"),
         ("\n  ", "\n   ", "line 1 of the numbers is not of whole columns"),
         ("e+00\n", "e+00", "of the numbers is not of whole columns"),
     ],

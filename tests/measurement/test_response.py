@@ -63,9 +63,9 @@ def test_equality_is_that_of_numbers_sensor_and_signals():
         ({"coherence": np.full(20, -0.01)}, "coherence lies in 0..1"),
         ({"coherence": np.ones((20, 1))}, "shape"),
         ({"omega": "abc"}, "row of numbers"),
-        ({"sensor": "jerk"}, "sensor is position, velocity or acceleration"),
+        ({"quantity": "jerk"}, "quantity is position, velocity or acceleration"),
         (
-            {"sensor": "torque"},
+            {"quantity": "torque"},
             "drives the machine; the quantity is what the sensor shows: position",
         ),
     ],

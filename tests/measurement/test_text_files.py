@@ -129,7 +129,7 @@ def test_columns_named_by_the_caller(tmp_path):
     ]
     path = written(tmp_path / "a.csv", lines(rows))
     with pytest.raises(
-        InputError, match=r"5 columns, no header; say what the columns are: .*columns=-,Hz,-,re,im;"
+        InputError, match=r"5 columns, no header; name the columns: .*columns=-,Hz,-,re,im;"
     ):
         read(path)
     found = read(path, columns=["-", "Hz", "coherence", "magnitude", "rad"])
@@ -154,7 +154,7 @@ def test_phases_in_a_doubtful_unit_are_said(tmp_path):
             "phases" in n for n in read(path, phase_unit=unit).notes
         )
     with pytest.raises(
-        InputError, match="'grad' is no unit of phase that is known; known are rad, mrad, deg"
+        InputError, match="'grad' is not a known unit of phase; known units: rad, mrad, deg"
     ):
         read(path, phase_unit="grad")
 
@@ -187,9 +187,9 @@ def test_the_sensor_is_taken_from_words_or_said_to_be_assumed(tmp_path):
         ),
         (
             ["f,Re,Im", *lines(ROWS[:5]), "6,x1,2", *lines(ROWS[6:])],
-            r"line 7, column 2 \(Re\): 'x1' is no number",
+            r"line 7, column 2 \(Re\): 'x1' is not a number",
         ),
-        (["f,Re,Im", "1,1,?", *lines(ROWS[1:])], "line 2, column 3: '\\?' is no number"),
+        (["f,Re,Im", "1,1,?", *lines(ROWS[1:])], "line 2, column 3: '\\?' is not a number"),
         (
             ["f,Re,Im", *lines(ROWS[:5]), "6,nan,2", *lines(ROWS[6:])],
             r"line 7, column 2 \(Re\): the value is not finite",
@@ -203,7 +203,7 @@ def test_the_sensor_is_taken_from_words_or_said_to_be_assumed(tmp_path):
         (["f,Re,Im", *lines(ROWS), "3,1,1"], "occurs twice"),
         (
             ["a,Re,Im", *lines(ROWS)],
-            "no column is a frequency; say what .* --read columns=Hz,re,im; headers: a, Re, Im",
+            "no column is a frequency; name the .* --read columns=Hz,re,im; headers: a, Re, Im",
         ),
         (
             ["f,Re,b", *lines(ROWS)],
@@ -377,7 +377,7 @@ def test_a_cell_of_many_digits_is_refused_at_once():
     """Matching took quadratic time: over two minutes for 40,000 digits. A hundred times as many
     are read here.
     """
-    with pytest.raises(InputError, match="is no number"):
+    with pytest.raises(InputError, match="is not a number"):
         table("f,re,im\n" + "1,2,3\n" * 20 + "1" * 4_000_000 + "x,1,2\n", "long.csv")
 
 
@@ -390,17 +390,20 @@ def test_a_cell_of_many_digits_is_refused_at_once():
         (["0.5,7", *lines(ROWS)], "line 1: 2 columns where the others have 3"),
         (
             ["f;Re;Im", *lines(ROWS, ";"), "13;1,234;5.5"],
-            "line 14, column 2 .Re.: '1,234' is no number",
+            "line 14, column 2 .Re.: '1,234' is not a number",
         ),
         (
             ["f;Re;Im", *lines(ROWS, ";", ","), "13;1.234;5,5"],
-            "line 14, column 2 .Re.: '1.234' is no number",
+            "line 14, column 2 .Re.: '1.234' is not a number",
         ),
         (
             ["f\tRe\tIm", *lines(ROWS, "\t"), "13\t\t4\t5"],
             "line 14: 4 columns where the others have 3",
         ),
-        (["f,Re,Im", *lines(ROWS), "13,\u0663,5"], "line 14, column 2 .Re.: '\u0663' is no number"),
+        (
+            ["f,Re,Im", *lines(ROWS), "13,\u0663,5"],
+            "line 14, column 2 .Re.: '\u0663' is not a number",
+        ),
     ],
 )
 def test_damage_of_the_first_line_and_foreign_decimal_signs_lose_no_number(tmp_path, text, words):

@@ -114,7 +114,7 @@ def test_given_lines_band_and_period():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"period": PERIOD, "transient": 6}, "6 whole periods of 500.*none is left"),
+        ({"period": PERIOD, "transient": 6}, "6 whole periods of 500.*none remains"),
         ({"period": 1}, "period is a whole number of at least 2"),
         ({"period": 10.5}, "period is a whole number"),
         ({"transient": -1}, "transient is a whole number"),
@@ -124,10 +124,10 @@ def test_given_lines_band_and_period():
         ({"lines": [600.0]}, "up to 500 Hz"),
         ({"band": (400, 500)}, "0 frequencies are too few"),
         ({"segment": 100, "period": PERIOD}, "give one of them"),
-        ({"segment": 100, "outliers": "drop"}, "segments of Welch's method are not alike"),
+        ({"segment": 100, "outliers": "drop"}, "not segments of Welch's method"),
         ({"segment": 4}, "at least 8 samples"),
         ({"segment": 2000}, "half-overlapping segments"),
-        ({"sensor": "jerk"}, "sensor is"),
+        ({"quantity": "jerk"}, "quantity is"),
     ],
 )
 def test_bad_options_are_refused(options, words):
@@ -252,7 +252,7 @@ def test_errors_of_neighbouring_lines_of_welch_are_not_correlated():
         ({"sampling_rate": 0}, "sampling rate is positive"),
         ({"sampling_rate": "fast"}, "sampling rate is a number"),
         ({"sampling_rate": np.inf}, "sampling rate is positive"),
-        ({"sensor": "x"}, "sensor is"),
+        ({"quantity": "x"}, "quantity is"),
     ],
 )
 def test_what_is_no_record_is_refused(changed, words):

@@ -102,7 +102,7 @@ def test_a_weakly_excited_line_scatters_by_more():
     assert missed.max() < 3 and known.sigma[-1] > 1.5 * blind.sigma[-1]
     few = data.masked(10.0, 290.0)
     assert len(few.drive) == len(few)
-    with pytest.raises(InputError, match="the amplitude of the input is positive"):
+    with pytest.raises(InputError, match="the amplitude of the input must be positive"):
         replace(data, drive=0 * data.drive)
 
 

@@ -262,7 +262,7 @@ def test_a_chain_outside_38_is_a_model_with_another_number():
         {"n_masses": True},
         {"n_masses": 2, "gap": None},
         {"n_masses": 2, "meas_plus": 1.5},
-        {"n_masses": 2, "sensor": "jerk"},
+        {"n_masses": 2, "quantity": "jerk"},
         {"n_masses": 2, "ground_dampers": (0,)},
         {"n_masses": 2, "ground_dampers": (3,)},
         {"n_masses": 2, "ground_dampers": (1, -1)},

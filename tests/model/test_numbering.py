@@ -79,7 +79,7 @@ def test_sentences_of_large_chains_have_their_names(pair):
     [
         (("compare", "9:1", "9:2"), "9:1 and 9:2, damped, acceleration, are distinguishable"),
         (("compare", "8:1", "9:1", "--undamped"), "8:1 is a limit of 9:1"),
-        (("next", "9:1", "9:2"), "9:1 and 9:2 are told apart by the present"),
+        (("next", "9:1", "9:2"), "9:1 and 9:2 are distinguishable by the present"),
         (("simulate", "9:1"), "the parameters of 9:1 are m1, m2"),
         (("equivalents", "9:1", "--to", "9:1", "--set", "k9=1"), "no parameter of 9:1; its"),
     ],

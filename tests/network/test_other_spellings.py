@@ -114,7 +114,7 @@ def test_a_path_of_compartments_is_its_arrows(nodes, both, leaks):
     "text", ["1>2>; in 1; out 1", ">1>2; in 1; out 1", "1><2; in 1; out 1", "1>2>1>2; in 1; out 1"]
 )
 def test_what_is_no_path_is_refused(text):
-    with pytest.raises(InputError, match=r"is no flow|is there twice"):
+    with pytest.raises(InputError, match=r"is not a flow|is given twice"):
         compartments(text, "")
 
 

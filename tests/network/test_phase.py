@@ -319,7 +319,7 @@ def test_all_notations_know_it(text, notation):
     [
         ([["CPE1", 1, 0]], "call it P1"),
         ([["P1", 1, 0, 0.5]], "as a text its exponent"),
-        ([["P1", 1, 0, "1/2"]], "is no exponent: use a name such as n1"),
+        ([["P1", 1, 0, "1/2"]], "is not an exponent: use a name such as n1"),
         ([["P1", 1, 0, "R1"], ["R1", 1, 0]], "R1 is an exponent and something else"),
         ([["R1", 1, 0, "2"]], "needs two nodes other than the ground"),
         ([[f"P{i}", 1, 0] for i in range(5)], "4 different exponents at most, not 5"),

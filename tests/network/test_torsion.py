@@ -116,7 +116,10 @@ FIRST = ("components", 0, "elements")
 @pytest.mark.parametrize(
     ("data", "said"),
     [
-        (changed(("force",), "Motor"), 'say where the force is, as "force": one of Motor.Rotor'),
+        (
+            changed(("force",), "Motor"),
+            'give the place of the force as "force": one of Motor.Rotor',
+        ),
         (changed(("sensor",), "Motor.Shaft"), "not 'Motor.Shaft'"),
         (changed(("sensor",), None), "Pump.Big, Pump.Impeller$"),
         (changed((*FIRST, 1, "stiffness"), 0), "stiffness of Motor.Shaft is a positive number"),
@@ -130,7 +133,7 @@ FIRST = ("components", 0, "elements")
         (changed((*FIRST, 2), {"name": "Pinion", "type": "GearElement"}), "give its teeth or dia"),
         (changed((*FIRST, 1, "name"), "Rotor"), "Motor.Rotor is the name of two elements"),
         (changed(("structure", 0), ["Motor.Pinion"]), "a connection is a pair such as"),
-        (changed(("structure", 0), ["Motor.Pinion", "Gone.Disk"]), "'Gone.Disk' is no element"),
+        (changed(("structure", 0), ["Motor.Pinion", "Gone.Disk"]), "'Gone.Disk' is not an element"),
         (changed(("structure",), []), "no way from a force to a sensor"),
         (changed(("components",), {}), '"components" is a list'),
         (train("Motor.Pinion", "Drive.Wheel"), "at two gears that mesh"),

@@ -68,7 +68,7 @@ def drawn_chain(draw: Random, masses: int, damped: bool) -> dict[str, Any]:
         "act_plus": mass(),
         "meas_minus": reference(),
         "meas_plus": mass(),
-        "sensor": draw.choice(list(ORDERS)),
+        "quantity": draw.choice(list(ORDERS)),
         "damped": damped,
         "ground_dampers": tuple(i for i in range(1, masses + 1) if draw.random() < 0.35),
         "lag": draw.random() < 0.2,

@@ -89,13 +89,13 @@ def test_no_page_says_that_no_experiment_tells_what_some_values_do_tell_apart() 
     assert "no experiment with this force and sensor tells it from" not in text.lower()
     assert "It depends on the positive parameters whether an experiment tells it from A2." in text
     assert (
-        "only for some positive parameters here, A2 has positive ones that do the same; the reverse"
+        "only for some positive parameters here, A2 has positive ones with the same response; the reverse"
         " for all." in text
     )
     assert "Over complex parameters, as in the paper\nIndistinguishable from A2." in text
     back = Outline(model_page(catalog(4, damped=False), 2)).text
     assert (
-        "for all positive parameters here, A6 has positive ones that do the same; the reverse for"
+        "for all positive parameters here, A6 has positive ones with the same response; the reverse for"
         " some only." in back
     )
 

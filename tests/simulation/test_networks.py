@@ -156,11 +156,11 @@ def test_time_steps_of_a_geared_loop_agree_with_the_exact_lines():
     [
         ("1~2; F1; S1, S2", {}, {}, "several inputs or outputs: simulate_all records"),
         ("R1-C1", {"R1": 1}, {}, "parameters C1, R1 are needed"),
-        ("R1-C1", {"R1": 0, "C1": 1}, {}, "R1 = 0 is no positive"),
+        ("R1-C1", {"R1": 0, "C1": 1}, {}, "R1 = 0 is not a positive"),
         ("R1-P1", {"R1": 1, "P1": 1}, {}, "parameters P1, R1, n1 are needed"),
-        ("R1-P1", {"R1": 1, "P1": 1, "n1": 1.5}, {}, "n1 = 1.5 is no exponent"),
-        ("R1-C1", {"R1": 1, "C1": -1}, {}, "C1 = -1 is no non-negative"),
-        ("R1-C1", {"R1": 1, "C1": 1}, {1: Friction(1.0)}, "friction belongs to machines"),
+        ("R1-P1", {"R1": 1, "P1": 1, "n1": 1.5}, {}, "n1 = 1.5 is not an exponent"),
+        ("R1-C1", {"R1": 1, "C1": -1}, {}, "C1 = -1 is not a non-negative"),
+        ("R1-C1", {"R1": 1, "C1": 1}, {1: Friction(1.0)}, "friction is supported for machines"),
         ("1~2; F1; S2", {"m1": 1, "m2": 1, "k12": 1}, {3: Friction(1.0)}, "masses 1, 2, not at"),
     ],
 )  # fmt: skip

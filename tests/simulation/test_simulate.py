@@ -71,7 +71,7 @@ def test_a_spectrum_is_read_back_bit_by_bit(tmp_path):
 )
 def test_what_is_no_spectrum_is_refused(tmp_path, text):
     (tmp_path / "s.csv").write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match="is no spectrum"):
+    with pytest.raises(InputError, match="is not a spectrum"):
         read_spectrum(tmp_path / "s.csv")
 
 
@@ -323,11 +323,11 @@ def test_a_held_input_makes_the_errors_that_the_guide_tells():
             lambda: simulate(Chain(2, damped=False), {"m1": 1.0}),
             "parameters m1, m2, k12 are needed",
         ),
-        (lambda: simulate(Chain(1, damped=False), {"m1": 0.0}), "m1 = 0.0 is no positive"),
+        (lambda: simulate(Chain(1, damped=False), {"m1": 0.0}), "m1 = 0.0 is not a positive"),
         (lambda: simulate(Chain(1, damped=False), {"m1": float("nan")}), "m1 = nan"),
         (
             lambda: simulate(Chain(2, damped=False), {"m1": 1.0, "m2": 1.0, "k12": -1.0}),
-            "k12 = -1.0 is no non-negative",
+            "k12 = -1.0 is not a non-negative",
         ),
         (lambda: Excitation(low=0.0), "0 < low < high"),
         (lambda: Excitation(spectrum=((10.0, 0.0),)), "positive amplitudes"),

@@ -24,7 +24,7 @@ STRANGER = {"name": "low pass", "num": ["k"], "den": ["T", 1]}
 def entry(chain):
     """A chain of a file, by a name of its own."""
     name = name_of(chain)
-    quantity = {"damped": chain.damped, "sensor": chain.quantity.value}
+    quantity = {"damped": chain.damped, "quantity": chain.quantity.value}
     return {"name": f"own {name}{' damped' * chain.damped}", "chain": name, **quantity}
 
 

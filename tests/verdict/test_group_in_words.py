@@ -19,13 +19,13 @@ def test_each_shipped_group_has_a_sentence_that_its_table_bears_out(n, damped):
             any(not menu.option(k, (item,)).left for item in menu.items(k))
             for k in range(len(members))
         ]
-        assert said.startswith("all told apart by ") == everywhere
-        assert said.startswith("one experiment tells each") == (all(single) and not everywhere)
+        assert said.startswith("all separated by ") == everywhere
+        assert said.startswith("one experiment separates each") == (all(single) and not everywhere)
         assert said.startswith("no ") == (not all(single) and not everywhere)
 
 
 def test_two_experiments_are_said_where_one_is_not_enough():
     menu = next_for(next_catalog(5, damped=True), (24, 29, 31, 37))
     assert group_in_words(menu) == (
-        "no single experiment surely tells A24, A29, A31, A37 from the rest, but two do"
+        "no single experiment always separates A24, A29, A31, A37 from the others, but two do"
     )

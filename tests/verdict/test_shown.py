@@ -126,10 +126,10 @@ def test_a_sensor_that_stands_still():
     )
 
 
-TOO_LARGE = "ask smaller ones of the same kind"
-REMEDIES = (TOO_LARGE, "without --conditions", "'disting equivalents' with --set")
+TOO_LARGE = "compare smaller ones of the same kind"
+REMEDIES = (TOO_LARGE, "remove --conditions", "'disting equivalents' with --set")
 OPEN = [
-    (("3:1", "3:11"), {"query": Query(View.COMBINED)}, "without --conditions"),
+    (("3:1", "3:11"), {"query": Query(View.COMBINED)}, "remove --conditions"),
     pytest.param(  # 20 s
         ("1=2=3=4=5=6, 3=7; F1; S1", "1=2=3=4=5=6, 2=7; F1; S1"),
         {},

@@ -139,7 +139,7 @@ def test_what_is_open_cannot_be_checked_alone() -> None:
 
 
 def test_models_are_named_wholly_with_damping_and_sensor() -> None:
-    data = plain("3:1+b2+lag", "A4", damped=False, sensor="velocity")
+    data = plain("3:1+b2+lag", "A4", damped=False, quantity="velocity")
     assert (data["left"], data["right"]) == ("3:1+b2+lag", "3:4")
     first = data["models"][0]
     assert (first["name"], first["damped"], first["sensor"]) == ("3:1+b2+lag", False, "velocity")

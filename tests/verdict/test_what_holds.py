@@ -124,7 +124,7 @@ def test_models_that_differ_are_not_equal_over_complex_parameters_by_an_undecide
     lie["over_complex"] = json.loads(json.dumps(Verdict.from_dict(undecided).to_dict()))
     found = verify(lie)
     assert found.status is Status.FAILS
-    assert "equality over complex parameters is told without evidence" in found.reason
+    assert "equality over complex parameters is stated without evidence" in found.reason
 
 
 @pytest.mark.parametrize(

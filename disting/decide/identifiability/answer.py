@@ -142,7 +142,7 @@ class Identifiability(NotebookTable):
         return Identifiability(**decode(data))
 
     def __bool__(self) -> bool:
-        raise TypeError("identifiability is not true or false; look at its level")
+        raise TypeError("identifiability is not true or false; use its level")
 
 
 def _sentence(answer: Identifiability) -> str:

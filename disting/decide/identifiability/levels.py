@@ -148,7 +148,7 @@ class ParameterIdentifiability:
         return ParameterIdentifiability(**(data | grade | read))
 
     def __bool__(self) -> bool:
-        raise TypeError("identifiability is not true or false; look at its levels")
+        raise TypeError("identifiability is not true or false; use its levels")
 
 
 def encode(answer: ParameterIdentifiability) -> str:

@@ -85,7 +85,7 @@ class Exact:
     reason: str
 
     def __bool__(self) -> bool:
-        raise TypeError("a finding is not true or false; look at its membership")
+        raise TypeError("a finding is not true or false; use its membership")
 
     @property
     def is_exact(self) -> bool:

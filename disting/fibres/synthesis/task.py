@@ -95,7 +95,7 @@ class Fibre:
             raise ValueError("a fibre that is not empty lists solutions")
 
     def __bool__(self) -> bool:
-        raise TypeError("a fibre is not true or false; look at its status")
+        raise TypeError("a fibre is not true or false; use its status")
 
 
 @dataclass(frozen=True, slots=True)

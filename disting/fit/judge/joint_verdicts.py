@@ -27,7 +27,7 @@ from disting.verdict.engine import Engine
 from disting.verdict.result import Query, Relation, View
 
 SAME = 1e-6  # largest relative difference of two responses that are one, at all lines
-OPEN = "Whether that holds for positive parameters is not decided."
+OPEN = "It is not decided whether that holds for positive parameters."
 RENAMED = "A renaming of the parameters turns all responses of the one into those of the other."
 
 

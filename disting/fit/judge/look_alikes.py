@@ -105,9 +105,9 @@ def look_alikes(chain: Chain, values: Mapping[str, float]) -> LookAlikes:
     """
     plain = replace(chain, lag=False, dead_time=False)
     if plain.gap or plain.act_minus or plain.meas_minus or plain.act_plus != 1:
-        return LookAlikes(not_looked_for="only chains with the force at mass 1 are looked at")
+        return LookAlikes(not_looked_for="only chains with the force at mass 1 are examined")
     if plain.n_masses > MOST_MASSES:
-        return LookAlikes(not_looked_for=f"only chains of up to {MOST_MASSES} masses are looked at")
+        return LookAlikes(not_looked_for=f"only chains of up to {MOST_MASSES} masses are examined")
     return _look_alikes(plain, tuple((n, values[n]) for n in plain.parameters))
 
 

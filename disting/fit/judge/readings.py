@@ -166,7 +166,7 @@ def question(readings: Sequence[QuantityReading]) -> str:
     """Ask for the quantity, and show the readings side by side."""
     ways = " or ".join(f"--quantity {r.quantity.value}" for r in readings)
     return (
-        "the data do not settle which quantity the sensor shows, and nothing says it:"
+        "the data do not determine which quantity the sensor shows, and nothing states it:"
         f" {'; '.join(r.sentence for r in readings)}; give {ways}"
     )
 

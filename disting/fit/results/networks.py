@@ -133,7 +133,9 @@ class NetworkSelection(NotebookTable):
         if chosen is None:
             return "None of these networks explains the data."
         twins = (
-            f", which cannot be told from {enumeration(chosen.same, BAR)}" if chosen.same else ""
+            f", which cannot be distinguished from {enumeration(chosen.same, BAR)}"
+            if chosen.same
+            else ""
         )
         others = [f.network.name for f in self.left if f is not chosen]
         more = f" The data do not exclude {enumeration(others, BAR)} either." if others else ""

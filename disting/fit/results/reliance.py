@@ -184,9 +184,9 @@ def _axes(columns: Real, noise: NoiseModel) -> tuple[Real, Real]:
 
 LINES = 400  # of a response that is drawn, at most
 WIDE, WIDE_LEVEL = 1.5, 3.0  # ratio of the ends of a range, and dB, from which on a note says why
-FAMILY = "of many equivalents one was looked at"
+FAMILY = "only one of many equivalents was examined"
 BETWEEN = "the structures lie apart: disting next tells what to measure"
-WITHIN = "known badly: more periods or lines help"
+WITHIN = "poorly determined: more periods or lines help"
 OUTER = 2.5  # percent of the draws on either side that a range leaves out
 SAME = 1.25  # ratio of two frequencies up to which they are one resonance
 ROOTS = {"antiresonance": zeros, "resonance": poles}
@@ -220,10 +220,10 @@ class Statement:
         """In words.
 
         >>> Statement(Kind.RANGE, "phase margin", 41.2, 44.0, "deg", 7, 7).text
-        'phase margin: 41.2 to 44 deg, whichever it is'
+        'phase margin: 41.2 to 44 deg, in every structure'
         """
         whose = (
-            "whichever it is" if self.holds == self.total else f"in {self.holds} of {self.total}"
+            "in every structure" if self.holds == self.total else f"in {self.holds} of {self.total}"
         )
         note = f" ({self.note})" if self.note else ""
         return f"{self.name}: {self.size}, {whose}{note}"

@@ -96,7 +96,7 @@ def profile(candidate: Candidate, task: Task, name: str, span: float = 0.0) -> P
     """
     if name not in candidate.practical.names:
         raise InputError(
-            f"{name} is no fitted parameter of this candidate; they are"
+            f"{name} is not a fitted parameter of this candidate; they are"
             f" {', '.join(candidate.practical.names)}"
         )
     names = task.names(candidate.chain)

@@ -95,7 +95,7 @@ def check(
     if other:
         raise InputError(
             f"the data shows {train.quantity.value}, a candidate {other.pop().value}; choose one"
-            " sensor quantity"
+            f" quantity"
         )
     for data in filter(None, (train, test)):
         check_range(data)
@@ -137,8 +137,8 @@ def check_range(data: FrequencyResponse) -> None:
         if low < 1 / MOST_EXTREME or high > MOST_EXTREME:
             limits = f"a fit computes with {1 / MOST_EXTREME:g} to {MOST_EXTREME:g}"
             raise InputError(
-                f"the {name} are {low:g} to {high:g} {unit}; {limits}: choose other units or leave"
-                " lines out"
+                f"the {name} are {low:g} to {high:g} {unit}; {limits}: choose other units or"
+                " remove lines"
             )
 
 

@@ -78,7 +78,8 @@ def network_of(
     texts = [notation] if notation else notations_of(text)
     if not texts:
         raise InputError(
-            f"{short(text)} is no network: write a circuit as R0-p(R1,C1), a machine as 1=2=3; F1;"
+            f"{short(text)} is not a network: write a circuit as R0-p(R1,C1), a machine as 1=2=3;"
+            " F1;"
             " S3, or compartments as 1>2, 2>0; in 1; out 2"
         )
     lines = filter(None, map(str.strip, text.split("\n")))
@@ -87,8 +88,8 @@ def network_of(
     good = {what: made for what, made in read.items() if isinstance(made, Network)}
     if len(set(good.values())) > 1:
         raise InputError(
-            f"{short(text)} means one circuit in {' and another one in '.join(good)} notation; say"
-            f" which: --notation {next(iter(good))}, or notation= in Python"
+            f"{short(text)} means one circuit in {' and another one in '.join(good)} notation;"
+            f" choose with --notation {next(iter(good))}, or notation= in Python"
         )
     if not good:
         raise next(made for made in read.values() if isinstance(made, InputError))

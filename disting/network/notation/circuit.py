@@ -35,7 +35,7 @@ BEHIND = re.compile(rf"\s*({VALUES.pattern})")
 ELEMENT = re.compile(r"(CPE|[RLCWPQ])(\d*|[a-z_]\w*)", re.ASCII)
 OURS = {"CPE": "P", "Q": "P"}  # what other programs call an element
 DEEPEST = 30
-IRRATIONAL = "its impedance is no fraction of polynomials in the root of s"
+IRRATIONAL = "its impedance is not a fraction of polynomials in the root of s"
 UNSUPPORTED = {
     "Wo": ("finite-length Warburg element with an open end", IRRATIONAL),
     "Ws": ("finite-length Warburg element with a short", IRRATIONAL),
@@ -67,7 +67,7 @@ def netlist(text: str, name: str) -> Network:
         match = port or element
         if match is None:
             raise InputError(
-                f"{short(line)} is no line of a netlist: write R, L, C, W or P, a number and two"
+                f"{short(line)} is not a line of a netlist: write R, L, C, W or P, a number and two"
                 " nodes, as in R1 1 2, or port 1 0"
             )
         *_, a, b = (
@@ -78,9 +78,9 @@ def netlist(text: str, name: str) -> Network:
         else:
             elements.append(Element(match[1], match[1][0], (a, b)))
     if len(set(ports)) > 1:
-        raise InputError("a netlist has one port: leave the other port and the sources away")
+        raise InputError("a netlist has one port: remove the other port and the sources")
     if not ports and "1" not in numbers:
-        raise InputError("no port is said and there is no node 1: add a line such as port in 0")
+        raise InputError("no port is given and there is no node 1: add a line such as port in 0")
     where = (ports[0] if ports else Port(numbers["1"]),)
     return Network(tuple(elements), where, where, name=name)
 
@@ -155,7 +155,7 @@ def _parse(text: str, dialect: Dialect) -> "tuple[Part, dict[str, int]]":
     reader = _Reader(dialect, list(token.finditer(plain)), plain)
     whole = reader.series()
     if reader.next:
-        raise reader.problem("what stands before it is whole; remove it or join it")
+        raise reader.problem("the part before it is complete; remove it or join it")
     return whole, reader.ends
 
 

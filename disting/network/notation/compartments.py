@@ -47,7 +47,8 @@ def compartments(text: str, name: str) -> Network:
         for path in part.split(","):
             if not PATH.fullmatch(path):
                 raise InputError(
-                    f"{short(path.strip())} is no flow: write 1>2, or 2>0 to the outside, then in"
+                    f"{short(path.strip())} is not a flow: write 1>2, or 2>0 to the outside, then"
+                    " in"
                     " 1; out 1 (out 1, 2 of two)"
                 )
             for first, arrow, second in ARROW.findall(path):
@@ -61,7 +62,7 @@ def of_flows(
 ) -> Network:
     """Compartments with these flows (0: the outside), inputs and outputs; raises InputError."""
     for a, b in sorted(flow for flow, times in Counter(flows).items() if times > 1):
-        raise InputError(f"the flow from {a} to {b} is there twice: leave one away")
+        raise InputError(f"the flow from {a} to {b} is given twice: remove one")
     nodes = sorted({i for flow in flows for i in flow} - {0} | {*inputs, *outputs})
     elements = [Element("", "v", (i,)) for i in nodes]
     elements += [Element(_named(a, b), "a", (a, b)) for a, b in flows]
@@ -106,7 +107,7 @@ def _of_lists(text: str, name: str) -> Network:
     named = {j for _, j in flows}.union(*sides.values())
     if max(named, default=0) > len(lists):
         raise InputError(
-            f"{max(named)} is none of the {len(lists)} compartments, which have a list each"
+            f"there is no compartment {max(named)}: the lists are of {len(lists)} compartments"
         )
     return of_flows(flows, sides.get("inputs", []), sides.get("outputs", []), name)
 

@@ -41,7 +41,7 @@ def network_of_entry(entry: Entry, name: str) -> Network:
             text = of_type(entry[key], str, f'"{key}" is a text')
             network = network_of(text, _notation(key, notation), name=name, quantity=quantity)
             if key == "circuit" and network.sort is not Sort.CIRCUIT:
-                raise InputError(f'{short(text)} is no circuit: write it as "network"')
+                raise InputError(f'{short(text)} is not a circuit: write it as "network"')
             return network
     if "components" in entry:
         return drive_train(entry, name).network
@@ -111,7 +111,7 @@ def _of_elements(entry: Entry, name: str, quantity: Quantity) -> Network:
     if "port" in entry:
         foreign = enumeration(f'"{key}"' for key in ("force", "sensor", "quantity") if key in entry)
         if foreign:
-            raise InputError(f'"port" is both input and output: leave {foreign} away')
+            raise InputError(f'"port" is both input and output: remove {foreign}')
         ports = _ports(entry["port"])
         return Network(elements, ports, ports, name=name)
     sides = [_ports(entry.get(key, [])) for key in ("force", "sensor")]

@@ -42,7 +42,7 @@ def machine(text: str, name: str, quantity: Quantity = Quantity.ACCELERATION) ->
         else:
             joints += [joint for run in part.split(",") for joint in _joints(run)]
     if len(quantities) > 1:
-        raise InputError(f"sensors show {enumeration(quantities)}: say one quantity")
+        raise InputError(f"sensors show {enumeration(quantities)}: give one quantity")
     order = (*quantities, quantity)[0].order
     nodes = {i for a, b, *_ in joints for i in (a, b)} | {
         i for _, p in ports for i in (p.plus, p.minus)
@@ -61,8 +61,8 @@ def _refuse_twice(joints: list["Joint"]) -> None:
     for letter, a, b in sorted(joint for joint, times in count.items() if times > 1):
         what = "the ground" if a == 0 else f"mass {a}"
         raise InputError(
-            f"mass {b} and {what} are joined by two {KINDS[letter].word}s, which act as one: leave"
-            " one away"
+            f"mass {b} and {what} are joined by two {KINDS[letter].word}s, which act as one:"
+            " remove one"
         )
 
 
@@ -97,7 +97,7 @@ def _joints(run: str) -> Iterator[Joint]:
     while run[at:].strip():
         match = JOINT.match(run, at)
         if not match:
-            raise InputError(f"{short(run[at:].strip())} after mass {node} is no joint: {HELP}")
+            raise InputError(f"{short(run[at:].strip())} after mass {node} is not a joint: {HELP}")
         yield _number(node), _number(match[2]), match[1], match[3] or ""
         at, node = match.end(), match[2]
 
@@ -112,7 +112,7 @@ def _port(word: str) -> tuple[str, Port]:
     match = PORT.fullmatch(word)
     if not match:
         raise InputError(
-            f"{short(word)} is no force or sensor: write F1 or S4, or F1:3 between two"
+            f"{short(word)} is not a force or sensor: write F1 or S4, or F1:3 between two"
         )
     return match[1], Port(_number(match[2]), _number(match[3] or "#"))
 
@@ -127,7 +127,7 @@ def _joints_of_drawing(text: str) -> tuple[list[Joint], list[tuple[str, Port]]]:
         if sign == "#=" or sign == "#~":
             before, sign = 0, sign[1]
         elif sign and (sign not in ("=", "~") or not end):
-            raise InputError(f"{short(sign)} is no joint of a drawing: = ~ or blanks")
+            raise InputError(f"{short(sign)} is not a joint of a drawing: = ~ or blanks")
         if sign:
             joints.append((number, before, sign, ""))
         if mark[3]:

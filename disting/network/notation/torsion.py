@@ -156,7 +156,9 @@ def _connect(pair: object, built: _Places) -> None:
 
 def _known(name: str, built: _Places) -> _Part:
     if name not in built.named:
-        raise InputError(f"{short(name)} is no element; there are {enumeration(built.named)}")
+        raise InputError(
+            f"{short(name)} is not an element; the elements are {enumeration(built.named)}"
+        )
     return built.named[name]
 
 
@@ -166,7 +168,7 @@ def _at(name: object, side: str, built: _Places) -> _Part:
     if not isinstance(name, str) or name not in turning:
         instead = "" if name is None else f", not {short(name)}"
         raise InputError(
-            f'say where the {side} is, as "{side}": one of {enumeration(turning)}{instead}'
+            f'give the place of the {side} as "{side}": one of {enumeration(turning)}{instead}'
         )
     return built.named[name]
 

@@ -80,8 +80,8 @@ def same_data_twice(selection: Selection) -> Iterator[str]:
     train = selection.task.cost.measured
     if selection.test is not train and selection.test == train:
         yield (
-            "training and test data are the same numbers: nothing is validated; measure again, or"
-            " leave --test away"
+            "training and test data are the same numbers: nothing is validated; measure again,"
+            " or remove --test"
         )
 
 
@@ -260,7 +260,7 @@ def weak(selection: Selection) -> Iterator[str]:
         for n, e in loose.items()
     ]
     if said:
-        yield f"known badly: {', '.join(said)}"
+        yield f"poorly determined: {', '.join(said)}"
 
 
 def _loose(name: str, error: float) -> str:

@@ -78,8 +78,8 @@ def first_sentence(lead: ChainAdvice) -> str:
 def _alone(named: FitRecord, source: str) -> Iterator[str]:
     """That nothing is to be told apart, what is not known beside it, and the worst parameter."""
     yield (
-        f"{source} leaves {reference(named.model)} alone: no further measurement is needed to tell"
-        " structures apart"
+        f"{source} leaves {reference(named.model)} alone: no further measurement is needed to"
+        " distinguish structures"
     )
     yield from larger_in_words(list(named.larger), reference(named.model))
     if named.rivals:

@@ -101,7 +101,7 @@ def measured_in_words(lead: ChainAdvice) -> Iterator[str]:
         " true structure fits it exactly"
     )
     yield bench_in_words(seen)
-    yield f"how much more of the same measurement tells them apart: disting plan {lead.source}"
+    yield f"how much more of the same measurement separates them: disting plan {lead.source}"
     yield from ("", *(sentence(lead, a, b) for a, b in lead.pairs()))
     items = [(item, _nearest(lead, seen, item)) for item in cheapest_first(lead, seen, 0)]
     yield ""
@@ -273,11 +273,11 @@ def _shown(lead: ChainAdvice, seen: Predictions, a: int, b: int) -> str:
         said = f"{item.text} (cost {lead.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
         if reached >= POWER:
             free = lead.left[b].free > 0
-            return said + ", for one of its values, the others were not looked at" * free
+            return said + ", for one of its values, the others were not examined" * free
         if best is None or reached > best[0]:
             best = reached, said
     if best is None:
-        return "no experiment on the menu surely tells them apart" if unsure else ""
+        return "no experiment on the menu always separates them" if unsure else ""
     return f"no experiment on the menu has power {percent(POWER)}; the best: {best[1]}"
 
 

@@ -23,11 +23,11 @@ if TYPE_CHECKING:  # a fit without a plan has no use for what plans
     from disting.planning.power import Plan
 
 PURPOSES = {
-    "compare": "Whether an experiment tells them apart, and why:",
+    "compare": "Whether an experiment separates them, and why:",
     "fit": "The fit, where the sensor shows this quantity:",
     "equivalents": "Every structure with the same response, and its parameters:",
 }
-SAME = "Why nothing tells them apart, and whether that holds for all parameters:"
+SAME = "Why nothing separates them, and whether that holds for all parameters:"
 
 
 @dataclass(frozen=True, slots=True)

@@ -158,7 +158,7 @@ def look_alike_sentences(selection: Selection) -> Iterator[str]:
             and not better_outside(selection)
         ):
             yield (
-                "no candidate stands on an elastic base; --base adds those with force and encoder"
+                "no candidate is on an elastic base; --base adds those with force and encoder"
                 " between base and motor"
             )
         elif selection.selected and selection.selected.chain.gap == 1:

@@ -257,7 +257,8 @@ def captions(selection: NetworkSelection) -> Sequence[str]:
             )
         sentences.append(f"Amplitude and phase of the data and of {described}.")
         sentences.append(
-            "Signs beyond the axis stand at its edge. Signs that follow each other on one side, or"
+            "Signs beyond the axis are drawn at its edge. Signs that follow each other on one"
+            " side, or"
             " many outside the band, show what the network misses."
         )
     return sentences

@@ -113,7 +113,7 @@ def _numbers(selection: NetworkSelection) -> list[tuple[str, str, str]]:
     same = sum(len(f.same) for f in selection.left)
     left = len(selection.left) + same
     meaning = f"of {plural(count, 'network')}"
-    meaning += f"; {same} of these cannot be told from another one" if same else ""
+    meaning += f"; {same} of these cannot be distinguished from another one" if same else ""
     return [
         ("not excluded", str(left), meaning),
         ("misfit", readable(described.chi2, 3), "chi2 per line; 1 is noise alone"),
@@ -130,7 +130,7 @@ def _rule() -> str:
         "A network explains the data if it leaves no more than the lines scatter. One that explains"
         f" them is excluded if another one does so clearly better (level {100 * LEVEL:g} %). Of"
         " those that are left, the one with the fewest values is named first. One that contains"
-        " another one that is left fits at least as well, so it is no rival."
+        " another one that is left fits at least as well, so it is not a rival."
     )
 
 
@@ -144,17 +144,15 @@ def _steps(selection: NetworkSelection, folder: Path) -> list[Step]:
     if chosen.same:
         other = shlex.quote(chosen.same[0])
         steps.append(
-            Step(
-                "Why no impedance or response tells them apart:", f"disting compare {name} {other}"
-            )
+            Step("Why no impedance or response separates them:", f"disting compare {name} {other}")
         )
         steps.append(
-            Step("At which further place a sensor tells them apart:", f"disting next {file}")
+            Step("At which further place a sensor separates them:", f"disting next {file}")
         )
     if len(selection.left) > 1:
         steps.append(
             Step(
-                "How much noise still tells the networks that are left apart:",
+                "How much noise still allows the remaining networks to be distinguished:",
                 f"disting plan {file}",
             )
         )

@@ -123,7 +123,7 @@ def _page(
 def _onward(named: FitRecord | NamedNetworks, file: Path) -> list[Step]:
     """Return the command for what no data of this kind tell apart."""
     command = f"disting next {shlex.quote(str(file))}"
-    return [Step("Which other experiment tells them apart:", command)] if named.same else []
+    return [Step("Which other experiment separates them:", command)] if named.same else []
 
 
 def _title(shown: Sequence[ShownPlan], named: FitRecord | NamedNetworks) -> str:
@@ -133,7 +133,7 @@ def _title(shown: Sequence[ShownPlan], named: FitRecord | NamedNetworks) -> str:
     if not shown:
         if not named.explained:
             return "The fit explains nothing, so it names no rival"
-        return "Measuring more tells nothing apart" if named.same else "The fit left no rival"
+        return "Measuring more separates nothing" if named.same else "The fit left no rival"
     if more:
         return (
             f"Measure more to exclude {more[0]}"

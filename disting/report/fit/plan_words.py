@@ -78,7 +78,7 @@ def rivals_in_words(
     if named.same:
         yield f"for another experiment: disting next {shlex.quote(file)}"
     if not plans:
-        yield "" if named.same else "the fit left no rival: there is nothing to tell apart"
+        yield "" if named.same else "the fit left no rival: there is nothing to distinguish"
     else:
         yield ""
         yield from _rows([plan for plan, _ in plans])
@@ -140,7 +140,7 @@ def answer_in_words(plan: Plan) -> str:
         other = next_command(plan)
         return (
             f"impossible: however long you measure {_words(plan.model)[1]}, {model} and {name}"
-            f" cannot be told apart; for another experiment: {other}"
+            f" cannot be distinguished; for another experiment: {other}"
         )
     if plan.answer is Answer.SAME:
         return _same(plan, plan.rival)
@@ -193,7 +193,7 @@ def _same(plan: Plan, rival: Rival) -> str:
         Relation.DISTINGUISHABLE: "the verdict says that the structures differ, but these values,"
         f" or all of {model}, have an equivalent in {name}",
     }.get(relation, "whether that holds for other values too is not decided")
-    more = "another sensor, or the force elsewhere, may tell them apart"
+    more = "another sensor, or the force elsewhere, may separate them"
     if relation is Relation.SOMETIMES:
         other = next_command(plan)
         more = f"for another experiment: {other}"

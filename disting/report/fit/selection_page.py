@@ -45,7 +45,7 @@ FOLDED = 4  # equivalents of one structure that are shown at once
 NEAREST = 5  # candidates that are named where none is admissible
 SAME = (
     "Every positive model of the selected structure is a positive model of these, and the reverse."
-    " No data with this force and sensor tell them apart; another place for the sensor may:"
+    " No data with this force and sensor separate them; another place for the sensor may:"
 )
 SOME = (
     "These have the behaviour of the selected structure for some positive parameters and not for"
@@ -251,7 +251,7 @@ def rivals(selection: Selection) -> int:
 
 def _validation(selection: Selection) -> str:
     if selection.test is not selection.task.cost.measured:
-        return "The cost that decides is measured on test data, which no fit has seen."
+        return "The cost that decides is computed on test data, which no fit used."
     return (
         f"The cost that decides comes from {selection.validation}: each line is predicted by a fit"
         " without it."

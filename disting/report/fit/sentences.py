@@ -284,8 +284,8 @@ def _to_decide(selection: Selection) -> Iterator[str]:
         others = [f"{x} with other values" if x == name else x for x in others]
         states = "these sensors and states" if _is_joint(selection) else "sensor"
         yield (
-            f"if it is {name}, it may as well be {_listed(others)}: no experiment with this force"
-            f" and {states} can tell, disting next looks for one that can"
+            f"{name} and {_listed(others)} give identical responses here: no experiment with"
+            f" this force and {states} can separate them; disting next searches for one that can"
         )
     if selection.explanation.level is Level.NEARLY:
         yield from commands_for_outside(selection)

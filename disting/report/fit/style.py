@@ -256,7 +256,7 @@ def inline(svg: str, name: str, title: str, width: str) -> Markup:
     box = re.search(r'viewBox="([^"]*)"', svg)
     body = re.search(r"<svg[^>]*>(.*)</svg>", svg, re.DOTALL)
     if box is None or body is None:
-        raise ValueError("this is no SVG")
+        raise ValueError("this is not an SVG")
     text = re.sub(
         r"<!--.*?-->|<metadata>.*?</metadata>|<style.*?</style>", "", body[1], flags=re.DOTALL
     )

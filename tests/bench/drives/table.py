@@ -27,7 +27,7 @@ STANDING = re.compile(
     r"machines outside them, such as a branch or an elastic base, are not excluded|no branch of as many masses and no base is proven[^\n]*"
     r"|friction at (the )?(motor|load|mass \d+) \(b\d\)|\(zero-order hold\), as models are compared|distortion below 0\.01 %"
     r"|an elastic base \(force and encoder between base and motor\) has other responses[^\n]*|look-alikes[^\n]*not looked for[^\n]*"
-    r"|(?<= or )(mass \d|the load) \(b\d\)|what you may rely on.*|disting report.*|friction at the motor|bearing friction"
+    r"|(?<= or )(mass \d|the load) \(b\d\)|conclusions that hold.*|conclusions, .*|disting report.*|friction at the motor|bearing friction"
 )
 CRY = re.compile(
     r"probably friction|not linear|nonlinear|distortion (?!below)[\d.]+ %"

@@ -80,7 +80,7 @@ def test_compare_gives_it_as_proven_evidence_that_can_be_checked_again():
     assert compare(a, b, query=Query(View.EXACT)).relation is Relation.INDISTINGUISHABLE
 
 
-@pytest.mark.parametrize("extra", [{"lag": True}, {"dead_time": True}, {"sensor": "position"}])
+@pytest.mark.parametrize("extra", [{"lag": True}, {"dead_time": True}, {"quantity": "position"}])
 def test_a_factor_that_only_one_chain_has_is_not_overlooked(extra):
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(2,)) for at in (1, 2))
     assert found(replace(a, **extra), replace(b, **extra)) == FullRows((7, 0))

@@ -1,0 +1,60 @@
+"""The examples at the end of a command's help work as they are."""
+
+import shlex
+from pathlib import Path
+
+import pytest
+
+from disting.cli import main
+from disting.cli.commands import SECTIONS, Command
+
+EXAMPLES = [
+    line
+    for section in SECTIONS.values()
+    for command in section
+    if isinstance(command, Command)
+    for line in command.examples
+]
+BENCH = next(line for line in EXAMPLES if "bench.csv" in line and "simulate" in line)
+LONG = ("disting look --demo", "disting report", "disting dampers", "disting verify")
+CHEAP = [line for line in EXAMPLES if "FIT.json" not in line and not line.startswith(LONG)]
+
+
+def status_of(line: str) -> int:
+    return main(shlex.split(line)[1:])
+
+
+def test_every_command_for_users_has_one() -> None:
+    commands = [*SECTIONS["measure and fit"], *SECTIONS["models"]]
+    assert [c.name for c in commands if not (isinstance(c, Command) and c.examples)] == ["fit"]
+
+
+@pytest.mark.parametrize("line", CHEAP)
+def test_an_example_works(
+    line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert status_of(BENCH) == 0
+    assert status_of(line) == 0, capsys.readouterr()
+
+
+@pytest.fixture
+def fitted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder with a file of a fit."""
+    monkeypatch.chdir(tmp_path)
+    assert status_of("disting fit --demo --masses 1-2 --json FIT.json") == 0
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("line", [line for line in EXAMPLES if line not in CHEAP])
+def test_a_longer_example_works(line: str, fitted: None) -> None:
+    assert status_of(line) in (0, 1)
+
+
+@pytest.mark.parametrize("name", ["compare", "models", "equivalents"])
+def test_help_ends_with_examples_and_tables(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main([name, "--help"])
+    told = capsys.readouterr().out
+    assert f"\nexamples:\n  disting {name} " in told
+    assert max(map(len, told.splitlines())) <= 100

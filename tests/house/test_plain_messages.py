@@ -1,0 +1,121 @@
+"""Phrases that may not come back into messages, help texts and headings: a user reads plain English.
+Texts of the package are its string literals without docstrings, f-strings with {} for a value.
+"""
+
+import argparse
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import disting
+from disting.cli.run import parser
+
+HOUSE = Path(disting.__file__).parent
+PHRASES = (
+    r"\b(?:is|are|was|were) (?:told|said|asked|seen)\b",
+    r"\btold\b",
+    r"\btells? .{0,40}\bapart\b",
+    r"\bleave\b.{0,60}\baway\b",
+    r"\bstands? (?:beside|behind|for|in)\b",
+    r"\bcomes? to (?:the same|that)\b",
+    r"\bwhich(?:ever)? it is\b",
+    r"\bknows? no\b",
+    r"\b(?:do|does) the same\b",
+    r"\blook(?:s|ed)? (?:at|on|across)\b",
+    r"\bmay as well\b",
+    r"\bknown badly\b",
+    r"\bsurely (?:enough|tells)\b",
+    r"\bbut for\b",
+    r"\bsettles?\b",
+    r"\bis no \w+ that is known\b",
+    r"\bone and the same\b",
+    r"\bbelongs? to (?:networks|machines|chains|numbered)\b",
+    r"\bsays? (?:which|what|how|so|it)\b",
+    r"^say (?:which|what|how|where)\b|[:;] say (?:which|what|how|where)\b",
+    r"\bfit them apart\b",
+    r"; (?:known|there) are\b",
+)
+"""Idiom of earlier versions; each is a regular expression."""
+
+STORED = ("decide/", "evidence/", "fibres/", "questions/")
+"""Packages whose sentences are in files of evidence, which a check compares word by word."""
+EXEMPT = {
+    # reasons that evidence may hold
+    "experiments/inclusion.py", "general/identifiability.py", "general/model_inclusions.py",
+    "general/model_side.py", "verdict/result.py",
+    # a defect of the program, or no text for a user
+    "equivalence/search.py", "general/fibre.py",
+}  # fmt: skip
+"""Modules that may hold such a phrase. This set may only shrink."""
+
+
+def texts(source: str) -> Iterator[tuple[int, str]]:
+    """Yield (line, text) of every string literal of two words or more that is no docstring.
+
+    >>> list(texts('"Doc string."\\nx = f"no {y} is told"'))
+    [(2, 'no {} is told')]
+    """
+    tree = ast.parse(source)
+    nodes = list(ast.walk(tree))
+    inner = {id(part) for n in nodes if isinstance(n, ast.JoinedStr) for part in n.values}
+    docs = {id(n.value) for n in nodes if isinstance(n, ast.Expr)}
+    for node in nodes:
+        if isinstance(node, ast.JoinedStr):
+            parts = (v.value if isinstance(v, ast.Constant) else "{}" for v in node.values)
+            yield node.lineno, "".join(map(str, parts))
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            plain = id(node) not in inner and id(node) not in docs
+            yield from [(node.lineno, node.value)] if plain and " " in node.value else []
+
+
+def faults(text: str) -> list[str]:
+    """The phrases of a text that are on the list."""
+    return [found[0] for p in PHRASES for found in re.finditer(p, text, re.IGNORECASE)]
+
+
+def modules() -> list[str]:
+    paths = (p.relative_to(HOUSE).as_posix() for p in sorted(HOUSE.rglob("*.py")))
+    return [path for path in paths if not path.startswith(STORED)]
+
+
+def test_a_phrase_is_found() -> None:
+    assert faults("--out is no option here: leave it away") == ["leave it away"]
+    assert faults("remove --out, which is not supported with --models") == []
+
+
+@pytest.mark.parametrize("room", sorted({path.partition("/")[0] for path in modules()}))
+def test_messages_are_in_plain_words(room: str) -> None:
+    found = {
+        f"{path}:{line}: {text[:90]!r}": faults(text)
+        for path in modules()
+        if path.partition("/")[0] == room and path not in EXEMPT
+        for line, text in texts((HOUSE / path).read_text("utf-8"))
+    }
+    assert {where: phrases for where, phrases in found.items() if phrases} == {}
+
+
+def test_exempt_modules_need_it() -> None:
+    for path in EXEMPT:
+        lines = texts((HOUSE / path).read_text("utf-8"))
+        assert any(faults(text) for _, text in lines), path
+
+
+def helps(top: argparse.ArgumentParser) -> Iterator[tuple[str, str]]:
+    """Yield (command, text) of all help texts, with those of commands inside."""
+    yield top.prog, top.description or ""
+    yield top.prog, top.epilog or ""
+    for action in top._actions:
+        if action.help and action.help != argparse.SUPPRESS:
+            yield top.prog, action.help
+        if isinstance(action, argparse._SubParsersAction):
+            for inner in dict.fromkeys(action.choices.values()):
+                yield from helps(inner)
+
+
+def test_help_texts_are_in_plain_words() -> None:
+    listed = list(helps(parser(whole=True)))
+    assert len(listed) > 200
+    assert [(command, faults(text)) for command, text in listed if faults(text)] == []
