@@ -31,8 +31,8 @@ class Side(ABC, Generic[S]):
     """Both sides of a comparison are of one family: chains, chains under several experiments, or
     general models.
 
-    `source` yields profiles, `answerer` answers about pairs; a cache may stand in for both. What a
-    family does not say of its models stays as it is here: not known, or not asked.
+    `source` yields profiles, `answerer` answers about pairs; a cache may stand in for both.
+    Defaults for families that do not override them: not known, or not decided.
     """
 
     exactly: ClassVar[Question[Finding]]  # the exact decision
@@ -161,18 +161,20 @@ class Side(ABC, Generic[S]):
         return None
 
     def part_of(self, other: Self) -> dict[int, int] | None:
-        """A numbering of its masses under which it is the other side with elements missing, what is
-        measured being the same; None if there is none.
+        """A numbering of its masses under which it is the other side with elements missing, with
+        the same measurement; None if there is none.
         """
         return None
 
     @abstractmethod
     def pair(self, other: Self) -> Models:
-        """Both, as `exactly` is asked of them."""
+        """Both, in the order in which `exactly` is called."""
 
     @abstractmethod
     def foreseen(self, other: Self) -> Finding | None:
-        """The exact decision where ranks, degrees or theorems tell it; None where it is asked."""
+        """The exact decision where ranks, degrees or theorems give it; None where it must be
+        computed.
+        """
 
     @abstractmethod
     def grounded(self, other: Self, found: Finding) -> Finding:

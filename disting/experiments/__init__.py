@@ -1,9 +1,9 @@
 """Chains and networks under several experiments with one parameter vector: what to measure next.
 
-`changes` of a machine are of the kinds of one table, `experiment` says how is measured,
-`machine_model` what it reveals, `measured_network` the same of a network, `exact` decides what
-conditions leave open, `machine_side` makes a measured chain a side of a comparison, `places` tells
-which mass of one model is which of the other.
+`changes` of a machine are of the kinds of one table, `experiment` describes the measurement,
+`machine_model` the behaviour, `measured_network` the same of a network, `exact` decides what
+conditions leave open, `machine_side` makes a measured chain a side of a comparison, `places` maps
+the masses of one model to those of the other.
 
 >>> from disting import Chain
 >>> from disting.experiments import move, parse_experiment, ways

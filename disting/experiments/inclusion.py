@@ -7,9 +7,9 @@ model into that of the smaller one, whatever is locked or added (`model.minors`)
 
 Outside. If V1 lies inside V2, so do their projections on one experiment, and on every set of
 coefficients. So one experiment is enough in which no limit has the degrees (the lemma of
-`questions.inclusion.profiles`, which speaks of finite elements only where it says so), in which the
-one sensor moves and the other one never does, or in which the model that has the smaller rank in
-all of them together has the larger one.
+`questions.inclusion.profiles`, which is restricted to finite elements only where stated), in which
+the one sensor moves and the other one never does, or in which the model that has the smaller rank
+in all of them together has the larger one.
 """
 
 from collections.abc import Callable, Iterator
@@ -41,7 +41,7 @@ ProfileOf = Callable[[MeasuredChain], Profile]
 def inclusions_under(
     left: MeasuredChain, right: MeasuredChain, profile_of: ProfileOf
 ) -> Inclusions:
-    """Both statements on two measured chains of unequal rank; equivalents are not looked for where
+    """Both statements on two measured chains of unequal rank; equivalents are not searched where
     limits are not excluded.
     """
     profile_of = cache(profile_of)

@@ -6,16 +6,16 @@ rational point of the other chain (`fibres.synthesis`). A listed ball that certa
 transfer function in some other experiment is none of the stacked fibre. If all are, no parameters
 of the searched chain have the behaviour of that point.
 
-What one point proves is what `questions.same.exact` says of one transfer function: the argument
+One point proves the statement of `questions.same.exact` on one transfer function: the argument
 knows the equations by their degree alone. Equal transfer functions are equations N2 D1 = N1 D2 of
 degree 2 (N_B + 1) at most in the parameters of both, in every experiment: locked masses and what is
 known lower degrees. That is no more than the 3 N_B + 2 of `synthesis.decide.safety_of_point`, and
 the degree of a component, D^(n + 1) at most, does not depend on how many equations there are. The
 point is the same for all experiments that may be listed, so no more points are drawn than there.
 
-Where many experiments are asked of few chains (`shared`), the point belongs to the chains, in their
-canonical form, whatever is done to them. So all that fits the present experiment is listed once,
-and each further experiment at each place is only an evaluation of that list. Each statement has the
+Where many experiments are decided for few chains (`shared`), the point belongs to the chains, in
+their canonical form, for all changes. So all that fits the present experiment is listed once, and
+each further experiment at each place is only an evaluation of that list. Each statement has the
 bound of its point, and bounds of many statements add up, whether their points are one or many. (A
 comparison of its own has its own point: experiments could be written for a point that is known.)
 """

@@ -1,11 +1,11 @@
-"""A measured chain as one side of a comparison: what conditions and verdicts ask of it.
+"""A measured chain as one side of a comparison: the properties that conditions and verdicts need.
 
-Conditions 1 to 7 are asked of the stacked summary word for word, and so is condition 8: where one
+Conditions 1 to 7 apply to the stacked summary without change, and so is condition 8: where one
 model is the other with elements missing and all experiments are at the same masses, missing
 elements that go to zero carry one tuple of transfer functions into the other, so the closure of its
 image lies in that of the other, and of equal rank they are equal. Condition 9 would be as true, but
 its third model, with the elements of both, is no chain of the class: it has no gap where theirs
-differ, so it cannot be measured as chains are, and what it would say the exact decision finds.
+differ, so it cannot be measured as chains are, and the exact decision finds its result.
 """
 
 from dataclasses import dataclass, replace
@@ -91,7 +91,7 @@ class ComparedMachine(Side[MeasuredChain]):
         return self.measured, other.measured
 
     def foreseen(self, other: "ComparedMachine") -> Finding | None:
-        """Not asked of unequal ranks, degrees or dead times."""
+        """Not computed for unequal ranks, degrees or dead times."""
         finding: Finding | None = found_at_once(SAME_MEASURED.at_once, self, other)
         return finding
 
@@ -118,7 +118,8 @@ class ComparedMachine(Side[MeasuredChain]):
         self, other: "ComparedMachine", domain: Domain, why: Evidence | None = None
     ) -> Finding:
         """Over real or positive parameters: a renaming is a bijection there too; positive ones are
-        asked for both ways, and what is found is no surer than that the models are the same.
+        decided in both directions, and the finding is at most as certain as the equivalence of the
+        models.
         """
         if isinstance(why, Renaming) or domain is not Domain.POSITIVE:
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=NOT_KNOWN.format(domain))
@@ -148,7 +149,7 @@ class ComparedMachine(Side[MeasuredChain]):
 
 
 def refuse_unequal(left: ComparedMachine, right: ComparedMachine) -> Finding | None:
-    """Not asked of unequal ranks, degrees or dead times."""
+    """Not computed for unequal ranks, degrees or dead times."""
     mine, theirs = left.transfer_profile, right.transfer_profile
     alike = mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees
     if alike and left.measured.chain.dead_time == right.measured.chain.dead_time:

@@ -1,9 +1,9 @@
-"""A general model as one side of a comparison: what conditions and verdicts ask of it.
+"""A general model as one side of a comparison: the properties that conditions and verdicts need.
 
 Condition 8 applies where both are networks, condition 9 never; which of its models are limits of
-another one of larger rank is told where elements or profiles show it. Verdicts are over complex
+another one of larger rank is decided where elements or profiles show it. Verdicts are over complex
 parameters first; over real or positive ones a pair that is distinguishable, or identical by a
-renaming, stays so, and points with and without an admissible equivalent are looked for otherwise.
+renaming, stays so, and points with and without an admissible equivalent are searched otherwise.
 """
 
 from collections.abc import Sequence
@@ -131,7 +131,7 @@ class ComparedModel(Side[AnyModel]):
     @cached_property
     def other_orders(self) -> tuple[tuple[tuple[str, ...], Renaming | None], ...]:
         """The other orders of its exponents that profiles leave open, each with a renaming of its
-        parameters that does the same, if there is one.
+        parameters that has the same effect, if there is one.
         """
         own = profile_text(self.transfer_profile)
         pairs = list[tuple[tuple[str, ...], Renaming | None]]()
@@ -156,7 +156,7 @@ class ComparedModel(Side[AnyModel]):
 
     @property
     def n_elements(self) -> int | None:
-        """Number of elements that are seen, if it is a network."""
+        """Number of elements with an effect on the response, if it is a network."""
         return n_elements(self.subject.network)
 
     def part_of(self, other: "ComparedModel") -> dict[int, int] | None:
@@ -187,7 +187,7 @@ class ComparedModel(Side[AnyModel]):
         return without_names(self.subject), without_names(other.subject)
 
     def foreseen(self, other: "ComparedModel") -> Finding | None:
-        """Not asked of unequal ranks or degrees, nor where a theorem tells it."""
+        """Not computed for unequal ranks or degrees, nor where a theorem decides."""
         finding: Finding | None = found_at_once(SAME_NETWORKS.at_once, self, other)
         return finding
 
@@ -258,7 +258,7 @@ class ComparedModel(Side[AnyModel]):
         return confirms_inclusion(evidence, self.subject, other.subject, self.rank < other.rank)
 
     def positive(self, other: "ComparedModel") -> PositiveFinding:
-        """Not asked."""
+        """Not decided."""
         return PositiveFinding(Share.UNKNOWN, reason=NO_SHARES)
 
     @classmethod
@@ -281,14 +281,16 @@ def positive_question(
 def _question(
     left: ComparedModel, right: ComparedModel, domain: Domain
 ) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
-    """Of networks that a theorem shows to be the same only a map without exception tells more."""
+    """For networks that are equivalent by a theorem only a map without exception adds
+    information.
+    """
     told = _theorem(left, right, domain)
     question = ADMISSIBLY[domain] if told is None else PLAIN_MAPS
     return question, _unnamed(left, right)
 
 
 def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
-    """Both as they are asked about over real and positive parameters."""
+    """Both in the form in which they are decided over real and positive parameters."""
     return left.asked_about[0], right.asked_about[1]
 
 
@@ -309,7 +311,7 @@ def _is_asked(left: ComparedModel, right: ComparedModel, domain: Domain) -> bool
 
 
 def refuse_unequal(left: ComparedModel, right: ComparedModel) -> Finding | None:
-    """Not asked of unequal ranks or degrees."""
+    """Not decided for unequal ranks or degrees."""
     mine, theirs = left.transfer_profile, right.transfer_profile
     if mine.rank == theirs.rank and mine.degrees == theirs.degrees:
         return None
@@ -323,7 +325,7 @@ def by_constants(left: ComparedModel, right: ComparedModel) -> Finding | None:
 
 
 def refuse_large(left: ComparedModel, right: ComparedModel) -> Finding | None:
-    """Not asked of functions that are too large to write down."""
+    """Not decided for functions that are too large to write down."""
     written = left.is_writable and right.is_writable
     return None if written else Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
 

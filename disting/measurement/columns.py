@@ -128,8 +128,8 @@ def _refuse_spectra(table: Table, columns: Sequence[Column]) -> None:
 def choose(
     table: Table, columns: list[Column], the_groups: Sequence[Group], asked: str | int | None
 ) -> Group:
-    """The first response, or that of the column asked for; one that belongs to none is taken as
-    a gain, with the phase behind it.
+    """The first response, or that of the requested column; one that belongs to none is read as a
+    gain, followed by the phase.
     """
     if asked is None:
         return the_groups[0]
@@ -273,7 +273,7 @@ def _gains(columns: Sequence[Column]) -> list[tuple[int, int]]:
 
 
 def level_of(column: Column) -> str:
-    """The level of a gain's unit, "1" where it says none."""
+    """The level of a gain's unit, "1" where it states none."""
     the_gain = gain(column.unit)
     return the_gain.level if the_gain else "1"
 
@@ -289,7 +289,7 @@ def stated_quantities(table: Table) -> list[Sensor]:
 
 
 def quantity_of(table: Table, sensor: Sensor | str | None, unit: str, notes: list[str]) -> Sensor:
-    """The quantity that is asked for, or that words or the unit of the output say."""
+    """The requested quantity, or that of the words or the unit of the output."""
     if sensor is not None:
         return as_sensor(sensor)
     sensors = stated_quantities(table)

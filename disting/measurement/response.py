@@ -100,22 +100,22 @@ class FrequencyResponse(NotebookTable):
     are equal.
 
     `omega` [rad/s], shape (n_f,), positive, all different; `G`, shape (n_f,), sensor quantity per
-    input [output unit / input unit]; `deviation` = standard deviation of the complex G, sqrt(var
-    Re G + var Im G), shape (n_f,), in the unit of G, or None; `coherence` = ordinary coherence
-    gamma^2 in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows; `origin` = file
-    and columns; `notes` = what was assumed or changed while reading; `distortion` = what the lines
+    input [output unit / input unit]; `deviation` = standard deviation of the complex G, sqrt(var Re
+    G + var Im G), shape (n_f,), in the unit of G, or None; `coherence` = ordinary coherence gamma^2
+    in 0..1, shape (n_f,), or None; `sensor` = the quantity that G shows; `origin` = file and
+    columns; `notes` = what was assumed or changed while reading; `distortion` = what the lines
     without excitation of a periodic record show, or None; `doubts` = what looked wrong while
     reading; `reading` = which columns were read as what; `freedom` = degrees of freedom of the
-    squared deviation, 2 for each repeat beyond the first, or None where nobody says how many there
-    are; `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line,
-    in any unit, shape (n_f,), or None; `is_impedance`: G is a voltage per current [ohm], of which
-    `sensor` says nothing; `hold` = how the input is held between samples, or None: the lines show G
-    through it then, and a fit compares models so; `columns` = those of the file as they were
+    squared deviation, 2 for each repeat beyond the first, or None where their number is not stated;
+    `window` = that of Welch's method, or None; `drive` = amplitude of the input at each line, in
+    any unit, shape (n_f,), or None; `is_impedance`: G is a voltage per current [ohm], to which
+    `sensor` does not apply; `hold` = how the input is held between samples, or None: the lines show
+    G through it then, and a fit compares models so; `columns` = those of the file as they were
     understood; `method` = how it was estimated from a record in time, or None; `loop` = the closed
     loop that the record shows, or None; `nonlinear` = the part of `deviation` that a nonlinear
     machine makes itself, shape (n_f,), or None where none is measured (module `nonlinear`).
-    Frequencies out of order are sorted, with a note. Raises
-    InputError for what is no frequency response (module `checks`).
+    Frequencies out of order are sorted, with a note. Raises InputError for what is no frequency
+    response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -297,8 +297,8 @@ class FrequencyResponse(NotebookTable):
         return self.subset(inside)
 
     def thinned(self, count: int) -> "FrequencyResponse":
-        """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale;
-        all if there are fewer. `reading` says so.
+        """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale; all
+        if there are fewer. `reading` states it.
         """
         if count < checks.FEWEST:
             raise InputError(f"at least {checks.FEWEST} lines are kept, not {count}")
@@ -310,7 +310,7 @@ class FrequencyResponse(NotebookTable):
 
     @renamed(sensor="quantity")
     def to_quantity(self, quantity: Sensor | str) -> "FrequencyResponse":
-        """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =
+        """The same motion as measured by another sensor: G (j omega)^n and deviation omega^n, n =
         difference of the orders.
 
         Raises InputError where the unit of the output is that of another quantity than it was read
@@ -355,7 +355,7 @@ class FrequencyResponse(NotebookTable):
 
     def held(self, period: float | str, order: int = 0) -> "FrequencyResponse":
         """The same lines as a digital drive shows them that holds its input for `period` [s] and
-        samples a motion of this `order` (0: position); `reading` says so. Raises InputError.
+        samples a motion of this `order` (0: position); `reading` states it. Raises InputError.
 
         >>> import numpy as np
         >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))

@@ -31,10 +31,10 @@ class TimeSeries:
     """Input `u` and output `y`, shape (n,) each, at `sampling_rate` [Hz]; immutable, equal by
     content.
 
-    `sensor` = the quantity that `y` shows; `reference`, shape (n,), = what a controller was asked
-    for, or None; `left_out` says what else the file has; `columns` = those of the file as they were
-    understood. Raises InputError for samples that are not
-    finite, constant signals and unequal lengths.
+    `sensor` = the quantity that `y` shows; `reference`, shape (n,), = the command of a controller,
+    or None; `left_out` lists what else the file has; `columns` = those of the file as they were
+    understood. Raises InputError for samples that are not finite, constant signals and unequal
+    lengths.
 
     >>> from disting.simulation import demo
     >>> record = demo()
@@ -209,8 +209,8 @@ class TimeSeries:
 
 
 def said(sensor: Sensor | str | None, unit: str = "") -> tuple[Sensor, tuple[str, ...]]:
-    """Sensor quantity of a recorded output: as asked for, or that of its unit, else position, with
-    the note that says so.
+    """Sensor quantity of a recorded output: as requested, or that of its unit, else position, with
+    the note that states it.
     """
     if sensor is not None:
         return as_sensor(sensor), ()

@@ -1,12 +1,12 @@
 """From findings to a verdict: the conditions in order, in each representation, until one decides.
 
 Transfer-function coefficients first (conditions 1 to 7), then Markov parameters (3 to 7), then
-structure (8 and 9). A necessary condition that fails decides DISTINGUISHABLE, a sufficient one
-that holds INDISTINGUISHABLE; otherwise the pair is left to the exact decision; what it cannot
-settle is UNDECIDED. The paper's view ends with the conditions. All of it is over the complex
-numbers: distinguishable models are so over real and positive parameters too (real and positive
-points are Zariski dense), while for indistinguishable ones the admissible values are asked for
-(see `questions.same.real_and_positive`).
+structure (8 and 9). A necessary condition that fails decides DISTINGUISHABLE, a sufficient one that
+holds INDISTINGUISHABLE; otherwise the pair is left to the exact decision; what it cannot settle is
+UNDECIDED. The paper's view ends with the conditions. All of it is over the complex numbers:
+distinguishable models are so over real and positive parameters too (real and positive points are
+Zariski dense), while for indistinguishable ones the admissible values are decided (see
+`questions.same.real_and_positive`).
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -82,8 +82,8 @@ def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | 
 
 def follows(v: Verdict, evidence: Evidence, query: Query) -> bool:
     """Return True if evidence of this kind proves this relation, by a rule of this kind, over this
-    domain, and the query allows it to decide. Over real and positive parameters equality is shown
-    by the rule that asks for such; a difference over complex ones is one there too.
+    domain, and the query allows it to decide. Over real and positive parameters equality is proven
+    by the rule for these; a difference over complex ones is one there too.
     """
     rule, at = RULES[v.decided_by], v.representation
     carrier = {EXACT: Carrier.EXACT, ADMISSIBLE: Carrier.ADMISSIBLE}.get(rule, Carrier.CONDITION)
@@ -121,8 +121,8 @@ def said_of(share: PositiveFinding, image: Inclusion) -> PositiveFinding | None:
 def with_inclusion(
     verdict: Verdict, equal_rank: bool, finding: Callable[[], Inclusions]
 ) -> Verdict:
-    """The verdict over complex parameters with its inclusion; of unequal rank the finding tells
-    it.
+    """The verdict over complex parameters with its inclusion; for unequal rank it is that of the
+    finding.
     """
     if verdict.relation is Relation.UNDECIDED:
         return verdict

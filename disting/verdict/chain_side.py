@@ -55,7 +55,7 @@ ChainPair = tuple["ComparedChain", "ComparedChain"]
 @dataclass(frozen=True)
 class ComparedChain(Side[Chain]):
     """A chain; profiles are those of the canonical form, which all symmetric chains share. `note`
-    says what its parameters are called in the network that it is.
+    gives the names of its parameters in the equal network.
     """
 
     note: str = ""
@@ -123,9 +123,7 @@ class ComparedChain(Side[Chain]):
         return is_renaming(self.chain.structure, other.chain.structure, renaming)
 
     def pair(self, other: "ComparedChain") -> tuple[Chain, Chain]:
-        """The canonical forms of both, in an order of their own, so that a pair is asked about
-        once.
-        """
+        """The canonical forms of both, in an order of their own, so that a pair is decided once."""
         low, high = sorted(
             (self.canonical.chain, other.canonical.chain),
             key=lambda c: (c.indices, c.ground_dampers, c.lag),
@@ -133,7 +131,7 @@ class ComparedChain(Side[Chain]):
         return low, high
 
     def foreseen(self, other: "ComparedChain") -> Finding | None:
-        """Not asked of unequal ranks."""
+        """Not computed for unequal ranks."""
         finding: Finding | None = found_at_once(SAME_CHAINS.at_once, self, other)
         return finding
 
@@ -259,7 +257,7 @@ def _canonical(left: ComparedChain, right: ComparedChain) -> tuple[Chain, Chain]
 
 
 def refuse_unequal(left: ComparedChain, right: ComparedChain) -> Finding | None:
-    """Not asked of unequal ranks."""
+    """Not computed for unequal ranks."""
     if left.rank == right.rank:
         return None
     return Finding(EXACT, Outcome.INAPPLICABLE, note="the ranks differ (condition 4)")

@@ -1,7 +1,7 @@
 """Equivalence of indistinguishable models over real or positive parameters, the admissible
 parameter sets of the paper.
 
-Positive. Both ways it is asked which positive models of the one have a positive equivalent in the
+Positive. In both directions: which positive models of the one have a positive equivalent in the
 other (`disting.questions.positive`). All, both ways: indistinguishable. None, both ways:
 distinguishable. Some in any way, and others not: it depends on the parameters. None in one way and
 some in the other cannot be: the images of both chains have one closure V, and the behaviours with
@@ -98,8 +98,8 @@ def needs_counts(left: Chain, right: Chain) -> bool:
 
 
 def witness_ways(left: Chain, right: Chain) -> tuple[tuple[Chain, Chain], ...]:
-    """The orders in which a real model without real equivalents is looked for, the second one
-    only if the first has none.
+    """The orders in which a real model without real equivalents is searched, the second one only if
+    the first has none.
     """
     if rational_map(left, right) or real_factors(left, right):
         return ()
