@@ -1,5 +1,5 @@
-"""Distinguishability of models of servo drives and of any other linear network: which structures
-a measurement cannot tell apart, with proof, and what else to measure then.
+"""Distinguishability of models of servo drives and of any other linear network: which structures a
+measurement cannot distinguish, with proof, and what else to measure then.
 
 >>> from disting import Family, compare
 >>> compare(Family(3)[9], Family(3)[10]).relation.value

@@ -2,7 +2,7 @@
 
 Python turns Ctrl-C into an exception, which is a traceback wherever nobody catches it: while half a
 second of modules is imported, and while the process ends. There the signal ends the process itself,
-in silence, as it ends any program (a shell says status 130); while a command works it is an
+in silence, as it ends any program (a shell reports status 130); while a command works it is an
 exception again, `disting.cli.run`. Nothing is imported before: `_signal`, beneath `signal`, is part
 of the interpreter, and the package imports its names when they are used.
 """

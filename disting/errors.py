@@ -1,7 +1,6 @@
 """The few errors that a user can meet. Not knowing is no error: it is the relation UNDECIDED.
 
-What is echoed of an input is short and can be printed, whoever made the input: see `short` and
-`enumeration`.
+An echo of any input is short and printable: see `short` and `enumeration`.
 """
 
 from collections.abc import Iterable
@@ -66,8 +65,8 @@ class ContradictionError(DistingError):
 
 
 class NotSeenError(DistingError):
-    """Evidence that takes more work to see again than is done for it: the message says what was not
-    seen.
+    """Evidence that takes more work to recompute than allowed: the message names what was not
+    found.
     """
 
 
@@ -85,7 +84,7 @@ def short(value: object) -> str:
 
 
 def of_type(value: T, kind: type | UnionType | tuple[type, ...], wanted: str) -> T:
-    """The value; raises InputError, which says what is wanted, where it is of another type.
+    """The value; raises InputError, which states what is expected, where it is of another type.
 
     >>> of_type(3, str, "a name is a text")
     Traceback (most recent call last):

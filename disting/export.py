@@ -44,8 +44,8 @@ def model_from_dict(plain: dict[str, Any]) -> tuple[Chain, dict[str, float]]:
 
 
 def chain_from_dict(plain: dict[str, Any]) -> Chain:
-    """The structure alone, of a candidate or of what is named beside it; raises InputError, and
-    MisnamedError for a name that denotes another structure.
+    """The structure alone, of a candidate or of a structure named in addition; raises InputError,
+    and MisnamedError for a name that denotes another structure.
     """
     try:
         (act_minus, act_plus), (meas_minus, meas_plus) = plain["actuator"], plain["sensor"]
@@ -82,7 +82,9 @@ def _no_model(reason: Exception) -> InputError:
 
 
 def refuse_open_quantity(plain: Any, path: Path) -> None:
-    """Raise InputError with the question for the sensor quantity, where a file of a fit asks it."""
+    """Raise InputError with the question for the sensor quantity, where a file of a fit leaves it
+    open.
+    """
     if isinstance(plain, dict) and plain.get("question"):
         raise InputError(f"{path} names no model: {plain['question']}")
 
@@ -222,7 +224,8 @@ def _control() -> Any:
 @dataclass(frozen=True, slots=True)
 class NumberedStructure:
     """A structure with numbers under its name, such as 3:11+b1, the units of its parameters, ""
-    where the data do not tell, and the parameters that the data do not determine (`undetermined`).
+    where the data leave them open, and the parameters that the data do not determine
+    (`undetermined`).
 
     >>> NumberedStructure("1:1", Chain(1, damped=False), {"m1": 2.0}, {"m1": "kg"}).units["m1"]
     'kg'

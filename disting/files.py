@@ -1,10 +1,10 @@
 """Files: the data that the package ships, read whole; files that a user names, never read without
 a bound; and files that are written whole or not at all, with the same bytes on every system.
 
-All JSON that is written comes from `json_text`, where a number that is not finite is null, and says
-at "format" which format it has. A field that is added leaves its number as it is; one that goes, or
-means something else, raises it. Of each there is a JSON Schema; definitions that several share
-stand in one file.
+All JSON that is written comes from `json_text`, where a number that is not finite is null, with its
+format at "format". A field that is added leaves its number as it is; one that goes, or means
+something else, raises it. Of each there is a JSON Schema; definitions that several share are in one
+file.
 """
 
 import contextlib
@@ -41,8 +41,8 @@ def shipped_folder() -> Path:
 
 
 def intact_text(path: Path) -> str:
-    """Text of a data file; raises CatalogError if the provenance beside it names another digest,
-    OSError if it cannot be read.
+    """Text of a data file; raises CatalogError if the provenance file next to it names another
+    digest, OSError if it cannot be read.
 
     Only the file that is read is hashed, as far as it went when the provenance was written if that
     names a length ("digest: bytes"). A folder without provenance, such as one that is just made,
@@ -78,9 +78,9 @@ def _digests(folder: Path) -> dict[str, str]:
 def read_bounded(path: Path, wanted: str, most: int = LARGEST) -> bytes:
     """The bytes of a file that a user names; `wanted` = what to name instead, for messages.
 
-    A size that the system tells is held against `most` before anything is read; of a pipe or a
-    device no more than `most` is read. A pipe without a writer is waited for, which a warning
-    says after two seconds. Raises InputError for what is larger, or cannot be read.
+    A known size is compared with `most` before anything is read; of a pipe or a device no more than
+    `most` is read. A pipe without a writer is waited for, with a warning after two seconds. Raises
+    InputError for what is larger, or cannot be read.
     """
     name, size = printable(str(path)), 0
     try:
@@ -122,7 +122,7 @@ def json_text(
     """JSON text of plain data, compact unless it is to be indented or `spaced`. Every JSON that the
     package writes to a file, to standard output or into a page comes from here.
 
-    JSON has no infinity and no NaN (RFC 8259, section 6): both are written as null, which says
+    JSON has no infinity and no NaN (RFC 8259, section 6): both are written as null, which means
     that there is no number. `ascii_only`: other characters are escaped.
 
     >>> json_text({"error": float("inf"), "J": 0.5})
@@ -169,7 +169,7 @@ def unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _at_most(path: Path, size: int, most: int) -> bytes:
-    """The first `most` bytes of a file of `size`, 0 where the system does not tell it."""
+    """The first `most` bytes of a file of `size`, 0 where the system does not report it."""
     if size:
         with path.open("rb") as file:
             return _rest(file, file.read(size), most)

@@ -1,20 +1,19 @@
 """Certainty of a statement, and the random points and primes at which generic facts are computed.
 
-A rank, a dependence or an identity of polynomials is looked at modulo a random prime near 2^61 and
+A rank, a dependence or an identity of polynomials is computed modulo a random prime near 2^61 and
 at a random point. What is non-zero there is non-zero generically: a proof. What is zero there is
 generically zero but for a probability that is bounded here, and independent points multiply their
 bounds.
 
 Everything is drawn from SHAKE-256 of a label, so that a result depends on the label alone: not on
 the order of the work, on the process or on the version of a random generator. The label holds a
-digest of the models that are looked at (`about`): the same question has the same points in
-whatever order it is asked, and nobody can write a model for which its own points or primes are
-special, since they change with every sign of it. Probabilities are those over the choice of a
-label's numbers.
+digest of the models that are examined (`about`): the same question has the same points in any order
+of questions, and nobody can write a model for which its own points or primes are special, since
+they change with every sign of it. Probabilities are those over the choice of a label's numbers.
 
-Keys of what is kept and labels of random points are made of `full_text`, the text of all that makes
-a value what it is. It is not `repr`, which is made for a reader and may leave things out: a key
-that leaves something out serves one model's answer for another one.
+Keys of stored values and labels of random points are made of `full_text`, the text of all that
+makes a value what it is. It is not `repr`, which is made for a reader and may leave things out: a
+key that leaves something out serves one model's answer for another one.
 """
 
 import hashlib
@@ -33,9 +32,10 @@ PLAIN = {int, str, bool, float, complex, type(None)}  # whose `repr` tells all
 
 
 def full_text(value: Any) -> str:
-    """A value with all fields of all dataclasses in it, but for those that say `repr=False`; what
-    is no dataclass, tuple, list or mapping, by its `repr`. A dataclass whose text must not change
-    with its layout says its fields in `written_fields`, a word its text in `written_text`.
+    """A value with all fields of all dataclasses in it, except those with `repr=False`; other
+    objects than dataclasses, tuples, lists and mappings by their `repr`. A dataclass whose text
+    must not change with its layout says its fields in `written_fields`, a word its text in
+    `written_text`.
 
     Raises ValueError for a whole number of more digits than Python writes in decimal.
 
@@ -142,7 +142,7 @@ def grade_of(proven: bool, safety: int) -> Grade:
 
 
 def shortfall(certainty: Certainty | None, safety: int) -> str:
-    """Why a statement may not be made with this grade, "" if it may: asked wherever a finding is
+    """Why a statement may not be made with this grade, "" if it may: checked wherever a finding is
     made.
 
     Raises ValueError for an error bound of what is not BOUNDED.
@@ -165,8 +165,8 @@ def shortfall(certainty: Certainty | None, safety: int) -> str:
 def withhold(
     finding: object, grade: tuple[Certainty | None, int], why: str, **unknown: object
 ) -> None:
-    """A finding whose grade is not enough says nothing: its fields become `unknown`, its evidence
-    and its bits none, the field `why` what is lacking (`shortfall`).
+    """Withhold a finding of insufficient grade: its fields become `unknown`, its evidence and its
+    bits none, and the field `why` states what is lacking (`shortfall`).
     """
     lacking = shortfall(*grade)
     if lacking:

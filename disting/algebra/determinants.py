@@ -52,7 +52,7 @@ Ring = TypeVar("Ring", bound=RingElement)
 
 
 class OutOfTimeError(Exception):
-    """The elimination was given up."""
+    """The elimination was abandoned."""
 
 
 def rank(rows: Sequence[Sequence[fmpz_mpoly]], seconds: float) -> int:

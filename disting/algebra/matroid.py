@@ -6,16 +6,16 @@ smaller rank k, and list the flats that its circuits of at most k elements span.
 matroid: a set of k rows is a basis exactly if it has no more than rank(F) rows in any such flat F.
 Equal matroids have equal forms, so the form is a key.
 
-Certainty: independence is seen at one point and so proven. Each dependence used is a statement
-"these rows have at most this rank"; all of them are looked at again at the independent points with
-large primes (see `behaviour.profile`).
+Certainty: independence at one point proves independence. Each dependence used is a statement "these
+rows have at most this rank"; all of them are checked again at the independent points with large
+primes (see `behaviour.profile`).
 
 All dependences of at most k elements of a vector configuration of rank k are found by vectorised
-elimination. What is kept of a circuit (a smallest dependent set) is the flat that it spans: one
-flat of 13 columns and rank 4 stands for 1287 circuits. A circuit never has exactly one element
-outside a hyperplane (Oxley, Matroid Theory, 2nd edition, proposition 2.1.11). So with the zeros of
-one row as hyperplane those inside are found in a configuration of one row less, and all others
-start with two columns outside: where these are few, that is a small part of all sets.
+elimination. Only the flat that a circuit (a smallest dependent set) spans is stored: one flat of 13
+columns and rank 4 represents 1287 circuits. A circuit never has exactly one element outside a
+hyperplane (Oxley, Matroid Theory, 2nd edition, proposition 2.1.11). So with the zeros of one row as
+hyperplane those inside are found in a configuration of one row less, and all others start with two
+columns outside: where these are few, that is a small part of all sets.
 
 The sets are grown column by column, in the order of their last columns: one array operation takes
 the quotients of many sets by each of their later columns, and a column that has become zero closes

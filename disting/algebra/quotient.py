@@ -88,7 +88,7 @@ def matrix(rows: Sequence[Sequence[int]], columns: int, modulus: int) -> nmod_ma
 
 
 def rational(residue: int, modulus: int) -> str:
-    """The fraction of small numerator and denominator that the residue stands for, as text (Wang's
+    """The fraction of small numerator and denominator that the residue represents, as text (Wang's
     reconstruction).
 
     >>> rational(pow(3, -1, 2**61 - 1) * 2, 2**61 - 1)

@@ -164,8 +164,8 @@ class ChainModel:
         return size_of_minors(power, n + 1, 3 * n + 4, len(self.parameters))
 
     def constants(self, markov: int | None) -> Mapping[str, str]:
-        """Those that are the constant 0: of the coefficients those that `powers` tells; a Markov
-        parameter below the relative degree and, in undamped chains, where its parity differs.
+        """Those that are the constant 0: the coefficients given by `powers`; a Markov parameter
+        below the relative degree and, in undamped chains, where its parity differs.
         """
         if markov is None:
             return dict.fromkeys(zeros(self.structure), "0")

@@ -1,5 +1,5 @@
-"""The profile of one model in one representation: all that conditions 1 to 5 and 7 ask of it,
-computed once.
+"""The profile of one model in one representation: all that conditions 1 to 5 and 7 need, computed
+once.
 
 A profile is small, hashable data. Pairs are compared through profiles, so a family costs one
 profile a model, and models with equal profiles form buckets.
@@ -46,13 +46,13 @@ class Profile:
 
     `labels` of the moment invariants; `free` marks the non-constant ones; `constants` holds the
     values of the others ("" where free); `degrees` (numerator, denominator) of (25), of several
-    transfer functions one pair after the other, (-1, 0) for one that is zero; `count` of
-    Markov parameters (0 for transfer functions); `rank` = number of determinable parameters. The
-    degrees, that the invariants in `proven_zeros` vanish, that free ones are free and, with
-    `rank_proven`, the rank hold without any error probability; all else is wrong with a
-    probability of at most 2**-safety, over the choice of the random points. A rank seen at a point
-    is a lower bound; it is proven where it is the number of parameters, or that of the rows that
-    vary, all others being proven constant.
+    transfer functions one pair after the other, (-1, 0) for one that is zero; `count` of Markov
+    parameters (0 for transfer functions); `rank` = number of determinable parameters. The degrees,
+    that the invariants in `proven_zeros` vanish, that free ones are free and, with `rank_proven`,
+    the rank hold without any error probability; all else is wrong with a probability of at most
+    2**-safety, over the choice of the random points. A rank found at a point is a lower bound; it
+    is proven where it is the number of parameters, or that of the rows that vary, all others being
+    proven constant.
     """
 
     representation: Representation
@@ -166,8 +166,8 @@ def from_samples(
     """Profile of a summary known through samples; `proven` are the labels that are proven to be
     constant.
 
-    Dependences are searched at the first of `searches` that is not special, as `seen` tells; the
-    others are not asked for.
+    Dependences are searched at the first of `searches` that is not special, according to `seen`;
+    the others are not searched.
     """
     labels = seen[0].labels
     free = tuple(any(any(s.rows[i]) for s in seen) for i in range(len(labels)))

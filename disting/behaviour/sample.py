@@ -1,5 +1,5 @@
-"""The exhaustive summary of a model seen at one random point modulo a prime: the moment invariants
-and their Jacobian, as numbers.
+"""The exhaustive summary of a model computed at one random point modulo a prime: the moment
+invariants and their Jacobian, as numbers.
 
 Degrees. Those of numerators and denominators in lowest terms are known exactly. A point is taken
 only if the transfer functions have these degrees there too. So leading coefficients and resultants
@@ -11,11 +11,11 @@ Several transfer functions with one parameter vector are summarised one after th
 b0[1], .., a0[1], .., b0[2], .. with the number of the transfer function. Those of one machine share
 poles, as a rule. So where two have denominators of one degree, the later one is given by what its
 coefficients are more than the first one's, a0[2-1], ..: that is as exhaustive, and where both
-denominators are one and the same these invariants are the constant 0, so that what is free is
-counted once. Those that are zero have no coefficients: their degrees say so. So the degrees alone
-say which invariants there are: summaries of equal degrees are compared entry by entry. Condition 7
-needs no more: whatever the summary is, of as many free entries as its rank generic values of all
-of them are reached.
+denominators are the same these invariants are the constant 0, so that what is free is counted once.
+Those that are zero have no coefficients: their degrees show it. So the degrees alone determine
+which invariants there are: summaries of equal degrees are compared entry by entry. Condition 7
+needs no more: whatever the summary is, of as many free entries as its rank generic values of all of
+them are reached.
 """
 
 from collections.abc import Iterator, Sequence
@@ -79,8 +79,8 @@ class DrawnPoint:
 
 @lru_cache(maxsize=REMEMBERED)
 def draw_point(model: Model, label: str, bits: int = PROOF_BITS) -> DrawnPoint:
-    """The random point and the random prime that the label stands for with this model; special
-    points are drawn again.
+    """The random point and the random prime that the label denotes for this model; special points
+    are drawn again.
     """
     whole = about(label, *model.content)
     for again in (f"{whole}:{attempt}" for attempt in range(DRAWS)):

@@ -162,7 +162,7 @@ def _matrices(
 
 
 def touched_rows(structure: Arrangement) -> tuple[tuple[int, int], ...]:
-    """The rows that the force moves and the sensor sees."""
+    """The rows that the force moves and the sensor measures."""
     p = structure.ports
     inside = {ends: [ends[0] <= port <= ends[1] for port in p] for ends in structure.row_ends}
     return tuple(ends for ends, (a, b, c, d) in inside.items() if (a or b) and (c or d))
@@ -279,8 +279,8 @@ def transfer_function(
     parameters.
 
     The quotient of two polynomials in s, a lag among its poles, times exp(-s Td) where there is a
-    dead time. A chain can be named, such as "3:1+b2": `damped` and `quantity` say then how it is
-    meant. Raises InputError for a text that names no chain.
+    dead time. A chain can be named, such as "3:1+b2": `damped` and `quantity` then state how to
+    read it. Raises InputError for a text that names no chain.
 
     >>> transfer_function("2:1", damped=False)
     (k12 + m2*s**2)/(k12*m1 + k12*m2 + m1*m2*s**2)
@@ -321,7 +321,7 @@ def rank_is_at_most(structure: Structure, labels: Sequence[str], most: int, seco
     """Proof that the Jacobian's rows with these labels (b_i, a_i, G_k; none = all coefficients)
     have no larger generic rank.
 
-    False says nothing. Raises OutOfTimeError after about `seconds`.
+    False proves nothing. Raises OutOfTimeError after about `seconds`.
 
     >>> from disting.model.family import Family
     >>> rank_is_at_most(Family(3, damped=True)[7].structure, (), 6, 5.0)
@@ -349,7 +349,7 @@ def coefficients_have_rank(
     parameters `names`; `units`: parameters that are one without loss of generality.
 
     `entries`: numerator and denominator of each, coefficients of s^0, s^1, ..; `labels` as in
-    `rank_is_at_most`, of a single transfer function. False says nothing. Raises OutOfTimeError.
+    `rank_is_at_most`, of a single transfer function. False proves nothing. Raises OutOfTimeError.
     """
     if not labels:
         every = [

@@ -134,7 +134,7 @@ def _pairs(decisions: dict[str, Decisions]) -> Iterator[Record]:
 
 
 def _shares(decided: Decisions, i: int, j: int) -> Record:
-    """Positive equivalents of both sides, where they are asked for."""
+    """Positive equivalents of both sides, where they are requested."""
     sides = {LEFT_POSITIVE: decided.shares.get((i, j)), RIGHT_POSITIVE: decided.shares.get((j, i))}
     return {name: share.to_dict() for name, share in sides.items() if share is not None}
 
@@ -309,7 +309,7 @@ def verify_networks(
     repeats these searches, which takes most of the time of a large family and proves nothing where
     they end as before.
 
-    Digits of rounded equivalents are looked at with the evidence (see `without_digits`).
+    Digits of rounded equivalents are checked with the evidence (see `without_digits`).
     """
     path = folder / f"{network_files.name_of(family.name)}.jsonl"
     if not path.is_file():

@@ -128,8 +128,8 @@ def matrix(
     progress: Progress = silent,
     name: str = "candidates",
 ) -> Matrix:
-    """The verdicts on all pairs of chains of one sensor quantity, of any sizes; inclusions are
-    not asked for.
+    """The verdicts on all pairs of chains of one sensor quantity, of any sizes; inclusions are not
+    decided.
     """
     if len({c.quantity for c in chains}) != 1:
         raise InputError("a matrix of verdicts holds models of one sensor quantity")
@@ -211,7 +211,7 @@ def _rows(decided: "Decisions") -> tuple[list[Record], int]:
     n = len(decided.subjects)
 
     def signs(of: Callable[[int, int], str], i: int) -> str:
-        """A letter a later model: the first one of what is said of the pair, ? where nothing is."""
+        """One letter for each later model: the initial of its relation, ? where none is known."""
         return "".join((of(i, j) or "?")[0] for j in range(i + 1, n))
 
     rows: list[Record] = [

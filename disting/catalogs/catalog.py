@@ -61,7 +61,9 @@ class StoredPair:
     def verdict(
         self, view: View, names: tuple[str, str], premises: tuple[Premise, Premise]
     ) -> Verdict:
-        """The verdict of a view with all that the record says of the pair, which it names so."""
+        """The verdict of a view with everything that the record holds on the pair, under these
+        names.
+        """
         step = self.step(view)
         looks_at_parameters = Stage.FIBRE in view.representations
         relations = self._both_ways if looks_at_parameters else {}
@@ -132,7 +134,7 @@ class StoredPair:
 
     @cached_property
     def _shares(self) -> tuple[PositiveFinding | None, PositiveFinding | None]:
-        """Positive equivalents of the left and of the right model, where they are asked for."""
+        """Positive equivalents of the left and of the right model, where they are requested."""
         own_value, other_value = (self.record.get(name) for name in (LEFT_POSITIVE, RIGHT_POSITIVE))
         return _share(repr(own_value)) if own_value else None, _share(
             repr(other_value)
@@ -283,8 +285,8 @@ class Catalog(NotebookTable):
         return header | {f"software {k}": v for k, v in _software().items()}
 
     def verdict(self, left: int, right: int, view: View = View.POSITIVE) -> Verdict:
-        """The stored verdict on two different models, numbered from 1; `left` and `right` as
-        asked, evidence in order.
+        """The stored verdict on two different models, numbered from 1; `left` and `right` as given,
+        evidence in order.
 
         Raises InputError for other numbers, CatalogError for a damaged record.
         """
@@ -410,7 +412,7 @@ class Catalog(NotebookTable):
         return {}
 
     def forget(self) -> None:
-        """Let go of the verdicts that were asked for: whoever asks again has them read again."""
+        """Drop the cached verdicts: they are read again on the next request."""
         self._known.clear()
 
     def _once(self, key: object, made: Callable[[], Any]) -> Any:
@@ -427,8 +429,8 @@ class Catalog(NotebookTable):
         return verdicts
 
     def _read(self, low: int, high: int) -> dict[View, Verdict]:
-        """The verdicts of all views: who asks for one asks for others, and to read the record is
-        most of the work.
+        """The verdicts of all views: a request for one is followed by others, and to read the
+        record is most of the work.
         """
         try:
             pair = StoredPair(self._pair(low, high))

@@ -1,8 +1,8 @@
 """Sets of dampers to the ground of one model, all against each other (Fig. 14 of the paper).
 
 The paper compares one at a time: no damper, then one at mass 1, 2, .., N. `DamperSets.ALL` takes
-all 2^N sets. Where two sets are indistinguishable over positive parameters, no experiment with
-this force and sensor can tell where the friction is.
+all 2^N sets. Where two sets are indistinguishable over positive parameters, no experiment with this
+force and sensor can show where the friction is.
 
 A whole family with every set of ground dampers, 88, 464, 2336 models of 3, 4, 5 masses, is
 compared by classes, all against all. The classes are files, shipped for 3, 4 and 5 masses.
@@ -160,7 +160,7 @@ def dampers(
     replaced by each set in turn.
 
     Over positive parameters sets are undecided where they are indistinguishable over complex ones
-    and no theorem says more.
+    and no theorem decides.
 
     >>> from disting.model.family import Family
     >>> dampers(Family(3, damped=True)[3], domain=Domain.COMPLEX).classes()
@@ -229,7 +229,7 @@ class DamperFamily:
         """Yield left, right, relation, decided_by, domain, damped, quantity of all pairs, models
         written 3:4+b1+b3, a line at a time.
 
-        The domain is complex: over positive parameters, families are not asked.
+        The domain is complex: over positive parameters, families are not decided.
         """
         yield "left,right,relation,decided_by,domain,damped,quantity\n"
         premise = ",".join(premise_text(*[self.family[1].premise] * 2))

@@ -40,10 +40,10 @@ CSV_COLUMNS = (
 ExportRow = tuple[
     int | str, int | str, Relation, str, str, str, str, Domain, str, str, str, str, str, str
 ]
-"""left, right (numbers, or names where models of several sizes are compared), relation,
-decided_by, representation, certainty, error bound, domain, image and closure ("" if not known),
-and which positive models of the left, and of the right, have a positive equivalent on the other
-side ("" where that is not asked), and what `premise_text` says
+"""left, right (numbers, or names where models of several sizes are compared), relation, decided_by,
+representation, certainty, error bound, domain, image and closure ("" if not known), and which
+positive models of the left, and of the right, have a positive equivalent on the other side (""
+where that is not decided), and `premise_text`
 """
 
 
@@ -83,7 +83,7 @@ def premise_text(left: Premise | None, right: Premise | None) -> tuple[str, str]
 
 
 def share_text(finding: PositiveFinding | None) -> str:
-    """Text of a column: always, sometimes, never, unknown, or "" where it is not asked."""
+    """Text of a column: always, sometimes, never, unknown, or "" where it is not decided."""
     return "" if finding is None else finding.share.value
 
 

@@ -11,11 +11,10 @@ What the data files of a folder are: `provenance.json` with the digest of each, 
 whenever one is read.
 
 `settled-dampers.jsonl`: pairs of chains with dampers to the ground that were decided once, with
-patience, a line a pair of canonical chains with its finding, which has its evidence.
-`dampers` takes over what it finds there; that the evidence holds is looked at by itself
-(`evidence_check.finding_holds`). The file, to which `disting catalog settle` appends, is named with
-the length that it had: what is appended later is the user's own. See `disting.files.intact_text`,
-which compares.
+patience, a line a pair of canonical chains with its finding, which has its evidence. `dampers`
+takes over what it finds there; the evidence is checked separately (`evidence_check.finding_holds`).
+The file, to which `disting catalog settle` appends, is named with the length that it had: what is
+appended later is the user's own. See `disting.files.intact_text`, which compares.
 """
 
 import hashlib
@@ -98,8 +97,8 @@ def lines(records: Iterable[Record]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Records(Sequence[Record]):
-    """Records as the lines of their file, each read when it is asked for: as text they take a tenth
-    of the memory, and most of them nobody asks for.
+    """Records as the lines of their file, each parsed on request: as text they take a tenth of the
+    memory, and most of them are never requested.
     """
 
     lines: tuple[str, ...]
@@ -173,7 +172,7 @@ def provenance_of(folder: Path) -> Record:
 
 
 def write_provenance(folder: Path) -> Path:
-    """Write it anew, after the files of the folder; returns its path."""
+    """Write it again, after the files of the folder; returns its path."""
     return write_whole(
         folder / PROVENANCE,
         [json_text(provenance_of(folder), indent=1, ascii_only=True, sort_keys=True), "\n"],

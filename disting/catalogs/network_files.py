@@ -3,14 +3,14 @@
 `networks-<family>.jsonl`: a header; a line a network with its parameters' identifiability and, as
 `group`, the number of its class over complex parameters, 0 where it is alone; then a line a pair
 that is the same there, with the verdicts over complex and over positive parameters, and `finding`
-where positive equivalents were looked for, which then has the evidence. Other pairs are told apart
-by conditions or by an exact decision in milliseconds: they are decided anew.
+where positive equivalents were searched, which then holds the evidence. Other pairs are
+distinguished by conditions or by an exact decision in milliseconds: they are decided again.
 
-A command on a family takes the findings over, so it answers at once, and all that it says has its
+A command on a family takes the findings over, so it answers at once, and every statement has its
 evidence. Families of thousands of such pairs are searched in brief: what is not decided within
-small bounds is undecided in the file, and `disting compare` of the two alone goes on for longer.
-Of networks that give the same functions one is asked about: a pair of others says `as` which pair
-it has all from, and what differs. Pairs of which parts tell something are not searched (see
+small bounds is undecided in the file, and `disting compare` of the two alone goes on for longer. Of
+networks that give the same functions only one is decided: a pair of others names in `as` the pair
+from which it is derived, and what differs. Pairs that their parts decide are not searched (see
 `disting.general.parts`).
 """
 
@@ -50,8 +50,8 @@ def search_in_brief(
     executor: Executor | None,
     progress: Progress,
 ) -> None:
-    """Let the engine know what a brief search tells of each pair, in place of a long one; of
-    networks that give the same one is asked about.
+    """Give the engine the results of a brief search of each pair, in place of a long one; of
+    equivalent networks only one is decided.
     """
     own = representatives(sides)
     same = [pair for pair in same_pairs(over_complex, len(sides)) if _is_searched(sides, *pair)]
@@ -61,7 +61,7 @@ def search_in_brief(
     answers, by_parts = dict[Pair, Finding](), dict[Pair, Finding]()
 
     def size(pair: Pair) -> int:
-        """Parameters of both: parts have fewer, so they are asked about before the whole."""
+        """Parameters of both: parts have fewer, so they are decided before the whole."""
         return sum(len(sides[i].subject.parameters) for i in pair)
 
     for _, layer in groupby(sorted(questions, key=size), key=size):
@@ -95,8 +95,8 @@ def _ordered(answers: Mapping[Pair, Finding], i: int, j: int) -> Finding:
 def _representatives_of_parts(
     sides: Sequence[NetworkSide], own: Sequence[int]
 ) -> dict[int, list[tuple[Labels, int]]]:
-    """Of each network that stands for others: names of elements that can be left out, and the
-    network that stands for the rest; of large ones, which have thousands of parts, none.
+    """For each representative network: names of elements that can be omitted, and the network that
+    represents the rest; for large ones, which have thousands of parts, none.
     """
     numbers = {form: i for i in own if (form := simplest_network(sides[i].subject))}
     parts = dict[int, list[tuple[Labels, int]]]()
@@ -115,7 +115,7 @@ def _of_parts(
     i: int,
     j: int,
 ) -> Iterator[Finding]:
-    """Yield what answers on parts of two networks tell of both."""
+    """Yield the results for two networks that follow from those for their parts."""
     for left_is_part, whole in ((True, i), (False, j)):
         for missing, part in parts[whole]:
             a, b = (part, j) if left_is_part else (i, part)
@@ -127,13 +127,13 @@ def _of_parts(
 
 
 def representatives(sides: Sequence[NetworkSide]) -> list[int]:
-    """For each the number of the network that stands for it: of those that give the same, one that
-    is no chain and a simplest one, if there is one.
+    """For each the number of its representative: of those that give the same, one that is no chain
+    and a simplest one, if there is one.
     """
     forms = [simplest_network(s.subject) for s in sides]
 
     def order(i: int) -> tuple[bool, bool, int]:
-        """The smallest is the one that is asked about."""
+        """The smallest is the one that is decided."""
         network, form = sides[i].subject.network, forms[i]
         plain = network is not None and form is not None and same_drawing(network, form)
         return sides[i].chain is not None, not plain, i
@@ -155,7 +155,7 @@ def in_order(i: int, j: int) -> Pair:
 
 
 def same_pairs(over_complex: Decisions, count: int) -> Iterator[Pair]:
-    """Yield the pairs that are not told apart over complex parameters."""
+    """Yield the pairs that are not distinguished over complex parameters."""
     for i, j in combinations(range(count), 2):
         if over_complex.relation(i, j) is not Relation.DISTINGUISHABLE:
             yield i, j
@@ -239,8 +239,8 @@ def _pairs(
 
 
 def _short(records: Sequence[Record], sides: Sequence[NetworkSide]) -> Iterator[Record]:
-    """Yield them shorter: what is carried over from another pair says from which, and where it
-    differs from that.
+    """Yield shorter records: a result derived from another pair names that pair and the
+    differences.
     """
     at = {(r["left"], r["right"]): r for r in records}
     own, names = [i + 1 for i in representatives(sides)], [s.name for s in sides]
@@ -341,7 +341,8 @@ def _known(
     family: str, engine: Engine, folder: Path | None
 ) -> tuple[list[NetworkSide], list[Record], list[Record]]:
     """The networks of a family, and the lines of its file on them and on their pairs; none where
-    there is none, or where it has other random points: what is known by these is not what is asked.
+    there is none, or where it has other random points: results at these points do not answer the
+    question.
     """
     path = (folder or shipped_folder()) / f"{name_of(family)}.jsonl"
     if not path.is_file():

@@ -2,7 +2,7 @@
 masses.
 
 `next-<masses>-<undamped|damped>.jsonl`: a header, then a line a group of structures that one
-measurement cannot tell apart over complex parameters: its `group` (numbers of the structures), and
+measurement cannot distinguish over complex parameters: its `group` (numbers of the structures), and
 for each kind of experiment what `verdict.placement_record.SpotClasses` holds of its spots,
 structure by structure and mass by mass: `gains` (a letter each: n new, r repeats, s silent),
 `columns`, `classes`, `links`, `open` and `safety`. The evidence is not kept: `disting compare
@@ -84,7 +84,7 @@ class NextCatalog:
 
     @property
     def groups(self) -> tuple[tuple[int, ...], ...]:
-        """Structures that one measurement cannot tell apart, over complex parameters."""
+        """Structures that one measurement cannot distinguish, over complex parameters."""
         return tuple(tuple(r["group"]) for r in self.records[1:])
 
     @cached_property
@@ -93,7 +93,7 @@ class NextCatalog:
 
     @cached_property
     def _read(self) -> dict[int, Menu[Chain]]:
-        """Groups that were asked for."""
+        """Cache of the requested groups."""
         return {}
 
     def group(self, number: int) -> tuple[int, ...]:

@@ -3,8 +3,8 @@ catalogues of each size one look-up for all pairs.
 
 `sizes-<undamped|damped>.jsonl`: a header, then a line a pair of two sizes, the smaller model as
 `left`, both named N:I; like the line of a pair in a catalogue it holds the deciding step by its
-representation, and the `inclusions` of models of unequal rank. Only limits are asked for, over
-complex parameters; where nothing settles them the finding says why.
+representation, and the `inclusions` of models of unequal rank. Only limits are decided, over
+complex parameters; where they stay open the finding gives the reason.
 
 Models of different sizes differ in their degrees (conditions 1 and 2); but the smaller model may
 lie inside the larger one, as a limit (see `decide.inclusion.across_sizes`). The file is
@@ -190,7 +190,7 @@ class SizesCatalog(NotebookTable):
         return self._known[key]
 
     def relation(self, left: int, right: int, view: View = View.POSITIVE) -> Relation:
-        """Relation of two models, without the verdict: those of two sizes are told apart."""
+        """Relation of two models, without the verdict: those of two sizes are distinguishable."""
         low, high = self._pair(left, right, view)
         (this_catalog, i), (other, j) = self._places[low - 1], self._places[high - 1]
         return (
@@ -221,7 +221,7 @@ class SizesCatalog(NotebookTable):
         )
 
     def forget(self) -> None:
-        """Let go of the verdicts that were asked for, those of the catalogues too."""
+        """Drop the cached verdicts, those of the catalogues too."""
         self._known.clear()
         for c in self.catalogs:
             c.forget()
@@ -265,7 +265,7 @@ class SizesCatalog(NotebookTable):
 
     @cached_property
     def _known(self) -> dict[tuple[int, int, View], Verdict]:
-        """Verdicts that were asked for; pages ask for each a few times."""
+        """Cache of the requested verdicts; pages request each a few times."""
         return {}
 
     @cached_property
@@ -335,8 +335,8 @@ def build_sizes(
 ) -> str:
     """The file's text; the bytes do not depend on the machine or the order of the work.
 
-    What the catalogues of the sizes (of a folder, or the shipped ones) say of pairs of one size is
-    not computed again.
+    Verdicts on pairs of one size are taken from the catalogues of the sizes (of a folder, or the
+    shipped ones).
     """
     for n in SHIPPED_SIZES:
         stored = catalog(n, damped=damped, folder=folder)

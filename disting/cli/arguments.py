@@ -32,7 +32,7 @@ def whole(low: int, high: int = 10**9) -> Callable[[str], int]:
     """Whole numbers from `low` to `high`."""
 
     def number(text: str) -> int:
-        """The number, or an error that says what is needed."""
+        """The number, or an error that states what is needed."""
         if not text.isdecimal() or len(text) > 99 or int(text) < low:
             raise argparse.ArgumentTypeError(
                 f"a whole number of at least {low} is needed, not {short(text)}"
@@ -162,7 +162,7 @@ def conditions(text: str) -> tuple[str, ...]:
 
 
 def add_damped(parser: argparse.ArgumentParser) -> None:
-    """--damped and --undamped; None where nothing is said."""
+    """--damped and --undamped; None if neither is given."""
     choice = parser.add_mutually_exclusive_group()
     for name, said in (
         ("damped", "a damper beside every spring (default)"),
@@ -282,7 +282,7 @@ def add_no_cache(parser: argparse.ArgumentParser) -> None:
 
 
 def add_work(parser: argparse.ArgumentParser, jobs: tuple[int, str] = (1, "1")) -> None:
-    """Cache and workers; `jobs`: their default number, and how help says it."""
+    """Cache and workers; `jobs`: their default number, and its description in the help."""
     add_no_cache(parser)
     parser.add_argument(
         "--jobs",
@@ -300,7 +300,7 @@ def add_work(parser: argparse.ArgumentParser, jobs: tuple[int, str] = (1, "1")) 
 
 
 def add_masses(parser: argparse.ArgumentParser, default: str = "") -> None:
-    """One number of masses or more; with a default they can be left away."""
+    """One number of masses or more; with a default they can be omitted."""
     text = "numbers of masses" + (f" (default: {default})" if default else "")
     parser.add_argument(
         "masses", type=MASSES, nargs="*" if default else "+", metavar="N", help=text

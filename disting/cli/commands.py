@@ -1,8 +1,8 @@
 """Table of the commands: the purpose of each and the module that runs it.
 
 The arguments of a command are declared in its own module, which is imported when the command is
-named: it takes longer than most commands run. Those of `fit` and `plan` stand apart from what runs
-them, which loads libraries that help needs not.
+named: it takes longer than most commands run. Those of `fit` and `plan` are separate from the code
+that runs them, which loads libraries that help does not need.
 """
 
 import argparse
@@ -14,11 +14,10 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """`text` says in a list of commands what `run` of its module does with the options; `add`
-    declares its arguments, in the same module if no other one is named. Of a command with many
-    options `brief` names the few lines that `--help` shows, beside them; the rest is behind
-    `--help-all`. `examples`: lines that work as they are, at the end of its help; FIT.json in them
-    is a file of a fit.
+    """`text` describes in a list of commands what `run` of its module does; `add` declares its
+    arguments, in the same module if no other one is named. Of a command with many options `brief`
+    names the few lines that `--help` shows in addition; `--help-all` shows the rest. `examples`:
+    lines that work as they are, at the end of its help; FIT.json in them is a file of a fit.
     """
 
     name: str

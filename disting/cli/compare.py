@@ -1,9 +1,9 @@
 """disting compare: one verdict, explained.
 
-A pair of a shipped catalogue is looked up here. Whatever else is asked for is decided in
-`decision`, with all that decides: a look-up needs none of it.
+A pair of a shipped catalogue is looked up here. All other requests are handled in `decision`, with
+the deciders: a look-up needs none of them.
 
-What is said of a verdict, and of either way, is the same for both.
+Verdicts and both directions are reported in the same way by both.
 """
 
 import argparse
@@ -43,7 +43,7 @@ def explain(
     what: str = RESPONSE,
     everywhere: bool = False,
 ) -> str:
-    """Relation, drawings, what cannot be determined of models that are told apart, what a
+    """Relation, drawings, what cannot be determined of models that are distinguishable, what a
     measurement (of `what`) shows (`everywhere`: at special values too), sentence, evidence,
     certainty, domain, inclusion.
     """

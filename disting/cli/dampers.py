@@ -1,5 +1,5 @@
-"""disting dampers: which sets of ground dampers of one model, or of all models of a size, can
-be told apart.
+"""disting dampers: which sets of ground dampers of one model, or of all models of a size, can be
+distinguished.
 """
 
 import argparse
@@ -207,7 +207,7 @@ def matrix(table: DamperTable, over_complex: DamperTable) -> str:
 
 def grid(names: Sequence[str], sign: Callable[[int, int], str]) -> str:
     """The signs of all pairs of names (line, column), at most 80 columns wide. Where the names are
-    too wide to stand above the columns, their numbers do, one digit below the other, in blocks.
+    too wide for the heads of the columns, their numbers do, one digit below the other, in blocks.
     """
     columns = range(len(names))
     block = list(_block(names, [names], columns, sign))

@@ -1,4 +1,4 @@
-"""A pair that no shipped catalogue holds, or of which more is asked than a catalogue tells:
+"""A pair that no shipped catalogue holds, or for which more is requested than a catalogue holds:
 decided, proven, under experiments, within ranges, as a file.
 """
 
@@ -68,7 +68,7 @@ def judge(
     sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace
 ) -> Judgement:
     """The verdict on two models, from the shipped catalogues or decided, and proven where that is
-    asked for.
+    requested.
     """
     less = LESS if asked.view.domain is not Domain.COMPLEX else ""
     with told_if_long(LONGER + less):
@@ -165,7 +165,7 @@ def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:
 def _under_experiments(
     sides: Sequence[Chain | AnyModel], asked: Query, options: argparse.Namespace
 ) -> int:
-    """Explain what further experiments tell, the models as they are included."""
+    """Explain the results of further experiments, those of the unmodified models included."""
     left, right = sides
     with engine_for(options) as (engine, _, _progress):
         if options.json:
@@ -186,8 +186,8 @@ def _every_way(
     models: Sequence[Chain | AnyModel],
     experiments: Sequence[Experiment],
 ) -> Iterator[str]:
-    """One way in full, several with what is common to them; one and the same chain is drawn with
-    the experiments of each side.
+    """One way in full, several with what is common to them; the same chain is drawn with the
+    experiments of each side.
     """
     left, right = names_beside(*models)
     chains = _chains(models)

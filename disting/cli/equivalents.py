@@ -214,7 +214,7 @@ def _signs(member: Equivalent) -> str:
 
 
 def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
-    """Structures without a member, grouped by what is said of them."""
+    """Structures without a member, grouped by their description."""
     groups: dict[str, list[str]] = {}
     for listing in listings:
         if not listing.members:

@@ -277,7 +277,7 @@ def _table(candidates: Any) -> Iterator[str]:
 
 
 def _index(value: float) -> str:
-    """A criterion; nothing where it is infinite, since the reasons below the table say what is
+    """A criterion; nothing where it is infinite, since the reasons below the table state what is
     not determined.
     """
     return f"{value:.3g}" if isfinite(value) else "–"

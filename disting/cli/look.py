@@ -121,8 +121,8 @@ def _seen(
     column: str = "",
     repeat: Sequence[Path] = (),
 ) -> Look:
-    """One file as it is read for one of `count` sensors; where it does not say which response is
-    meant, as it is read without, with the reason among the doubts.
+    """One file as it is read for one of `count` sensors; if it is ambiguous which response is
+    meant, the file is read without `count`, with the reason among the doubts.
     """
     reasons = list[str]()
     try:

@@ -1,5 +1,5 @@
-"""The command `equivalents` of a network or of a model in a file: what else does the same, and with
-which values.
+"""The command `equivalents` of a network or of a model in a file: which others are equivalent, and
+with which values.
 """
 
 import argparse
@@ -33,7 +33,9 @@ OPEN = (Relation.UNDECIDED, Relation.SOMETIMES)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print the networks that are not told apart from one, with values where they are given."""
+    """Print the networks that are not distinguishable from one, with values where they are
+    given.
+    """
     if options.also:
         raise InputError("--also is not supported with networks and models of a file; remove it")
     (asked,) = _named(options.model, options)
@@ -108,7 +110,7 @@ def _lines(equivalents: list[ModelEquivalent]) -> Iterator[str]:
 
 
 def _exception(alternatives: Alternatives) -> Iterator[str]:
-    """Why there is no positive set although both do the same for all positive values."""
+    """Why there is no positive set although both are equivalent for all positive values."""
     if alternatives.exist(Domain.POSITIVE) is Outcome.FAILS:
         yield (
             "these values are special, for almost all others there is one"
@@ -144,8 +146,8 @@ def _formulas(
     options: argparse.Namespace,
     progress: Progress,
 ) -> Iterator[str]:
-    """For each model that does the same for all positive values its values as formulas, or why
-    none are known.
+    """For each model that is equivalent for all positive values its values as formulas, or why none
+    are known.
     """
     mark = _mark(options)
     for done, x in enumerate(equivalents):

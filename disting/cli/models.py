@@ -92,7 +92,7 @@ def _numbers(kind: Kind) -> str:
 
 
 def run(options: argparse.Namespace) -> int:
-    """List the models of one size, or of a file; or tell of a network."""
+    """List the models of one size, or of a file; or describe a network."""
     if isinstance(options.masses, NetworkText):
         return _of_network(network_of(options.masses, options.notation), options)
     if isinstance(options.masses, Listed):

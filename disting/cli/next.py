@@ -1,4 +1,4 @@
-"""disting next: what to measure next to tell structures apart."""
+"""disting next: what to measure next to distinguish structures."""
 
 import argparse
 import csv
@@ -133,7 +133,7 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
 
 
 def _written(options: argparse.Namespace, lines: Table, plain: str, text: str) -> int:
-    """The table, the JSON and the text, each where it is asked for."""
+    """The table, the JSON and the text, each where it is requested."""
     if options.csv:
         emit(options.csv, _table(lines))
     if options.json:
@@ -231,7 +231,7 @@ def _shipped(group: list[Named], damped: bool, costs: Costs) -> Menu[Chain] | No
 
 
 def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
-    """The structures to tell apart, or the sentence that says that there is nothing to do."""
+    """The structures to distinguish, or the sentence that says that there is nothing to do."""
     texts = list(dict.fromkeys(options.models))
     chains = read_together(texts, damped=is_damped(options))
     again = next((i for i, chain in enumerate(chains) if chain in chains[:i]), None)
@@ -248,7 +248,7 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
 
 
 def _told_apart(sides: Sequence[AnySide], engine: Engine) -> str:
-    """The sentence on two that are told apart as they are measured now, "" where none are; raises
+    """Sentence on two that the present measurement distinguishes, "" where none are; raises
     InputError where that is not known.
     """
     for left, right in combinations(sides, 2):

@@ -1,4 +1,6 @@
-"""disting next with the file of a fit: what to measure next to tell apart what it left."""
+"""disting next with the file of a fit: what to measure next to distinguish the structures that it
+left.
+"""
 
 import argparse
 import shlex
@@ -35,7 +37,7 @@ AGAIN = "then fit the new measurement, NEW, together with these data:"
 @dataclass(frozen=True, slots=True)
 class NetworkAdvice:
     """The networks that a fit of `source` left: `noise` names those that noise alone leaves
-    together, the selected one first; `groups`: those that no data of these ports tell apart;
+    together, the selected one first; `groups`: those that no data of these ports distinguish;
     `larger`: those that contain another one, and are no rivals.
     """
 
@@ -97,7 +99,7 @@ def network_advice(
 
 
 def _source(options: argparse.Namespace) -> str:
-    """The file; raises InputError for what is named beside it."""
+    """The file; raises InputError for arguments in addition to it."""
     source = next(name for name in options.models if name.lower().endswith(".json"))
     if len(options.models) > 1 or options.damped is not None:
         raise InputError(
@@ -147,7 +149,7 @@ def _warn(source: str, named: FitRecord) -> None:
 
 
 def table(lead: ChainAdvice) -> Iterator[Sequence[str]]:
-    """Every experiment at every pair of places, with what the data of the fit say of it."""
+    """Every experiment at every pair of places, with its result for the data of the fit."""
     yield (*CSV_COLUMNS, *MEASURED_COLUMNS)
     yield from left_rows(lead)
 

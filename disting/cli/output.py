@@ -4,9 +4,9 @@ Windows, or ASCII.
 What has no place there is written with signs that have: formulas stay readable, and no output ends
 in an error.
 
-Where results go: words to standard output as it can show them, data to a file or to standard
-output as the same bytes, UTF-8, whatever that can show. Files and folders are looked at before the
-work begins, so that nothing is computed in vain.
+Where results go: words to standard output as it can show them, data to a file or to standard output
+as the same bytes, UTF-8, whatever that can show. Files and folders are checked before the work
+begins, so that no computation is wasted.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""disting plan: how much measuring tells two structures apart."""
+"""disting plan: how much measuring distinguishes two structures."""
 
 import argparse
 from dataclasses import dataclass

@@ -39,7 +39,7 @@ VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
 
 def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
     """Over positive parameters where no domain ("") is named, but the paper's view, over complex
-    ones, where it is asked for.
+    ones, where it is requested.
 
     Conditions that are named decide alone: the exact decision belongs to the default.
     """

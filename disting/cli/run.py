@@ -1,8 +1,8 @@
 """Runs one command and turns every expected failure into one sentence and an exit status.
 
-The parser of all commands is here too, and what it says where it does not understand. Commands,
-options, choices and models are completed by TAB, with argcomplete; a shell asks for it by an
-environment variable.
+The parser of all commands is here too, and its messages for invalid input. Commands, options,
+choices and models are completed by TAB, with argcomplete; a shell requests it by an environment
+variable.
 """
 
 import argparse
@@ -94,7 +94,7 @@ def _add_group(to: Subparsers, group: Group, whole: bool) -> None:
 
 
 class _Parser(argparse.ArgumentParser):
-    """A parser whose errors are one sentence, which says what may have been meant."""
+    """A parser whose errors are one sentence, with a suggestion."""
 
     undeclared: Command | None = None
     brief: str = ""
@@ -171,7 +171,7 @@ class _Parser(argparse.ArgumentParser):
         return f"{match[1]}: {wanted[match[2]]} is needed, not {match[3]}" if match else message
 
     def _meaning(self, name: str) -> str:
-        """The first words of the help of an argument, after what stands for its value."""
+        """The first words of the help of an argument, after the placeholder of its value."""
         for action in self._actions:
             if action.choices and action.metavar == name:
                 return f": one of {', '.join(action.choices)}"
@@ -355,8 +355,8 @@ def _heard() -> Iterator[None]:
 
 
 def _not_lost(lost: "sys.UnraisableHookArgs") -> None:
-    """Where Python would tell of an interrupt and go on, since it fell into a callback (there is
-    one at the end of every import), the process ends at once.
+    """Where Python would report an interrupt and continue, since it occurred in a callback (there
+    is one at the end of every import), the process ends at once.
     """
     if isinstance(lost.exc_value, KeyboardInterrupt):
         signal.signal(signal.SIGINT, signal.SIG_DFL)

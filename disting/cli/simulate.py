@@ -52,7 +52,7 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
 
 
 def _drive(p: argparse.ArgumentParser) -> None:
-    """The model, its parameters, and what of it is seen."""
+    """The model, its parameters, and the observed quantities."""
     text = (
         "masses:number of a model, as 'disting models' lists it; +b2: damper from mass 2 to the"
         " ground; +lag; +delay; or a network such as 'R0-p(R1,C1)' or '1=2, 2=3, 2=4; F1; S4',"

@@ -1,4 +1,4 @@
-"""disting verify: whether a verdict holds, seen anew from its evidence alone."""
+"""disting verify: whether a verdict holds, recomputed from its evidence alone."""
 
 import argparse
 from pathlib import Path
@@ -34,7 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Check one verdict; status 1 if it does not hold, 3 if that cannot be seen."""
+    """Check one verdict; status 1 if it does not hold, 3 if that cannot be decided."""
     is_file = len(options.what) == 1
     if len(options.what) > 2:
         raise InputError("name one file of a verdict, or two models such as 3:1 3:4")

@@ -2,7 +2,7 @@
 
 A rate is measured: seconds of one core for one thing of so many masses, on the machine of the
 guide's page on speed. Sizes beyond the last that was measured take as many times more as that took
-more than the one before it. So it is an order of size, and is told as one.
+more than the one before it. So it is an order of size, and is reported as one.
 """
 
 import argparse
@@ -78,7 +78,7 @@ SMALL = 200  # pairs or models of which nobody needs an estimate
 def announce_pairs(
     name: str, sides: Sequence[AnySide], query: Query, engine: Engine, jobs: int
 ) -> None:
-    """Tell of all pairs of a family of networks or of a file, where a sample says that they take
+    """Announce all pairs of a family of networks or of a file, where a sample shows that they take
     long. Chance picks the sample: another one each time, since what was decided once is quick.
     """
     count, chance = len(sides) * (len(sides) - 1) // 2, Random()
@@ -94,7 +94,7 @@ def announce_pairs(
 def announce_by_sample(
     count: int, things: str, smaller: str, try_one: Callable[[], object], jobs: int
 ) -> None:
-    """Tell of so many things, where trying a few of them says that all take long."""
+    """Announce this number of tasks, where trying a few of them shows that all take long."""
     if count <= SMALL:
         return
     begun, tried = process_time(), 0
@@ -110,7 +110,9 @@ def announce_by_sample(
 
 
 def announce(work: Work, counts: Mapping[int, int], jobs: int = 1) -> None:
-    """Tell of so many things by number of masses, where they take long; nothing is asked."""
+    """Announce this number of tasks by number of masses, where they take long; the user is not
+    prompted.
+    """
     seconds = sum(count * work.value.of(n) for n, count in counts.items()) / max(jobs, 1)
     if seconds > LONG:
         complain(
@@ -178,7 +180,7 @@ def cores() -> int:
 
 @contextmanager
 def engine_for(options: argparse.Namespace) -> Iterator[tuple[Engine, Executor | None, Progress]]:
-    """Engine with the user's store, workers as asked, and progress on standard error."""
+    """Engine with the user's store, workers as requested, and progress on standard error."""
     from disting.store.scheduling import executor  # and with it the processes of the library
 
     with ExitStack() as stack:
@@ -251,7 +253,7 @@ def _drawn(ended: Event, latest: dict[str, tuple[int, int]]) -> None:
 
 
 def _lines(pause: float) -> Iterator[Progress]:
-    """For logs and pipes: what is done is told by a thread of its own, since one step may take
+    """For logs and pipes: progress is reported by a thread of its own, since one step may take
     long.
     """
     begun, ended, last = monotonic(), Event(), ["working"]
@@ -272,7 +274,7 @@ def _lines(pause: float) -> Iterator[Progress]:
 
 
 def _beside(announce: Callable[[], None], ended: Event, advance: Progress) -> Iterator[Progress]:
-    """The progress, told by a thread until the work has ended."""
+    """The progress, reported by a thread until the work has ended."""
     thread = Thread(target=announce, daemon=True)
     thread.start()
     try:

@@ -50,7 +50,7 @@ ONE_SIDED = (Inclusion.LEFT_IN_RIGHT, Inclusion.RIGHT_IN_LEFT)
 
 @dataclass(frozen=True, slots=True)
 class InclusionFinding:
-    """One statement with its evidence; `reason` says why it is unknown.
+    """One statement with its evidence; `reason` tells why it is unknown.
 
     A bound that does not reach 2**-LEAST_SAFETY leaves it unknown.
     """
@@ -84,8 +84,8 @@ class InclusionFinding:
 
 @dataclass(frozen=True, slots=True)
 class Inclusions:
-    """Both statements on a pair of unequal rank; raises ValueError where evidence does not
-    prove what is said.
+    """Both statements on a pair of unequal rank; raises ValueError where evidence does not prove
+    the statement.
     """
 
     image: InclusionFinding

@@ -78,7 +78,7 @@ def condition_3(left: Profile, right: Profile) -> Finding:
     """Cond. 3: "Both sets of moment invariants have the same symbolic form", zeros for constants,
     ones for the others.
 
-    Values of constants do not enter here (condition 7 asks for them); an invariant that one model
+    Values of constants do not enter here (condition 7 compares them); an invariant that one model
     lacks is constant there.
     """
     if left.form == right.form:
@@ -142,19 +142,19 @@ def form_grade(left: Profile, right: Profile) -> Grade:
 
 
 def rank_grade(left: Profile, right: Profile) -> Grade:
-    """A rank seen at a point is a lower bound for certain; only the smaller of two could be too
+    """A rank found at a point is certainly a lower bound; only the smaller of two could be too
     small by chance.
     """
     return grade_of(min((left, right), key=lambda p: p.rank).rank_proven, _safety(left, right))
 
 
 def dependence_grade(left: Profile, right: Profile) -> Grade:
-    """A dependence seen at all points could be there by chance, within the bound."""
+    """A dependence found at all points could be accidental, within the bound."""
     return grade_of(False, _safety(left, right))
 
 
 def _restricted(profile: Profile, shape: Matroid) -> Matroid:
-    """The matroid on the free rows only, numbered anew, so that summaries with other constants
+    """The matroid on the free rows only, numbered again, so that summaries with other constants
     compare.
     """
     if all(profile.free):

@@ -37,8 +37,8 @@ class Role(StrEnum):
 
     NECESSARY: a property of both profiles that indistinguishable models share, so that where it
     fails they are distinguishable. SUFFICIENT, STRUCTURAL: where it holds they are
-    indistinguishable; asked of two summaries, or of two structures. DECISION: either, by what is
-    found.
+    indistinguishable; evaluated on two summaries, or of two structures. DECISION: either, by what
+    is found.
     """
 
     NECESSARY = "necessary"
@@ -51,9 +51,8 @@ class Role(StrEnum):
 class Rule:
     """`name` in data and tables; `title`: what it looks at; `text`: what holds then.
 
-    `phrase` is how sentences name it, with {domain} for the parameters that are spoken of, and
-    `mark` is what a field of a matrix shows; without them it is "condition NAME", marked by its
-    name.
+    `phrase` is how sentences name it, with {domain} for the parameter domain, and `mark` is what a
+    field of a matrix shows; without them it is "condition NAME", marked by its name.
     """
 
     name: str
@@ -131,7 +130,7 @@ RULES = {
         *(EXACT, ADMISSIBLE),
     )
 }
-"""Every rule by its name, in the order in which they are asked."""
+"""Every rule by its name, in the order in which they are evaluated."""
 
 
 # what files have in the place of the rule where a decision found it, since the first of them: a
@@ -144,7 +143,7 @@ NOT_REAL = (
 
 
 class Outcome(StrEnum):
-    """A condition holds, fails, does not apply to this pair or representation, or was given up at
+    """A condition holds, fails, does not apply to this pair or representation, or was abandoned at
     a limit.
 
     SOMETIMES: it holds for some parameter values and fails for others.
@@ -163,8 +162,8 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Outcome of a rule; with BOUNDED the probability of error is at most 2**-safety. `note` says
-    why not.
+    """Outcome of a rule; with BOUNDED the probability of error is at most 2**-safety. `note` gives
+    the reason if not.
 
     A bounded outcome whose bound does not reach 2**-LEAST_SAFETY becomes ABANDONED, whoever makes
     the finding.
@@ -207,7 +206,7 @@ class Finding:
         return self if self.evidence is None else replace(self, evidence=self.evidence.turned)
 
     def to_json(self) -> str:
-        """Compact JSON text of a finding of a decision; its rule is known to whoever asked."""
+        """Compact JSON text of a finding of a decision; the caller knows its rule."""
         evidence = None if self.evidence is None else self.evidence.to_dict()
         data = [WRITTEN, self.outcome, self.certainty, self.safety, evidence, self.note]
         return json.dumps(data, separators=(",", ":"))

@@ -1,8 +1,8 @@
 """The ordered table of conditions: it is the programme, and it prints itself into help texts,
 legends and pages.
 
-A new condition is a rule, which says what it is called and what its outcome proves, and a row here,
-which says how it is asked.
+A new condition is a rule, which gives its name and what its outcome proves, and a row here, which
+gives its function.
 """
 
 from collections.abc import Callable, Hashable
@@ -31,7 +31,7 @@ from disting.model.presentation import summary
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """A row of the table: a rule, and how it is asked."""
+    """A row of the table: a rule, and the function that evaluates it."""
 
     rule: Rule
 

@@ -18,8 +18,8 @@ A verdict on two models goes this way, and stops at the first step that decides
    sometimes or never: `SHARE_*`.
 
 Each table is for one kind of models: chains, chains under several experiments, and networks with
-all other models. Its rows are asked in order; the first finding that decides is the answer, and a
-row that gives up leaves its note. The order of the rows is the only order there is. `verify` looks
+all other models. Its rows are tried in order; the first finding that decides is the answer, and a
+row that abandons leaves its note. The order of the rows is the only order there is. `verify` looks
 up in the same rows how evidence from a file is checked.
 
 To add a theorem: write its function, which returns a finding or None, and how its evidence is

@@ -1,7 +1,7 @@
-"""Rows of the tables of deciders, and the engine that asks them.
+"""Rows of the tables of deciders, and the engine that runs them.
 
 A row names its functions by module, so that a command loads only what it runs. Methods that are
-interchangeable have the same arguments; a table says which they are.
+interchangeable have the same arguments; a table lists them.
 """
 
 from collections.abc import Iterable
@@ -54,10 +54,10 @@ class Decider:
 
     `decide`, `applies`, `check` and `recheck` name functions as "package.module:function", below
     `disting`. `decide` and `applies` have the arguments of their table; `decide` returns None where
-    the method has nothing to say. `yields`: types of evidence, or one theorem by name.
+    the method does not decide. `yields`: types of evidence, or one theorem by name.
     `check(evidence, left, right)` returns True if evidence that was read from a file holds, found
     again from itself alone. `recheck(evidence, left, right, settings)` returns the finding that the
-    settings make with such evidence; without it, `decide` is asked again.
+    settings make with such evidence; without it, `decide` is called again.
     """
 
     name: str
@@ -85,7 +85,7 @@ class Decider:
         )
 
     def finding(self, *given: Any) -> Any:
-        """Return the finding on these arguments, None where the method says nothing."""
+        """Return the finding on these arguments, None where the method does not decide."""
         is_apt = not self.applies or function(self.applies)(*given)
         return function(self.decide)(*given) if is_apt else None
 
@@ -98,9 +98,9 @@ class Decider:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Table:
-    """The deciders of one question about models of one kind, in the order in which they are asked.
+    """The deciders of one question about models of one kind, in the order in which they are tried.
 
-    `at_once` are asked before a stored answer is looked up, of two sides, and what the first one
+    `at_once` are tried before a stored answer is looked up, of two sides, and what the first one
     finds is the answer; `rows` make the answer that is stored. `note`: what a reader should know of
     the whole.
 
@@ -161,7 +161,9 @@ def function(name: str) -> Any:
 
 
 def first_finding(rows: Iterable[Decider], *given: Any) -> Any:
-    """Return the first finding that decides; else the first that says why not; else None."""
+    """Return the first finding that decides; else the first that gives a reason for not deciding;
+    else None.
+    """
     left_open = None
     for row in rows:
         finding = row.finding(*given)
@@ -172,7 +174,7 @@ def first_finding(rows: Iterable[Decider], *given: Any) -> Any:
 
 
 def found_at_once(rows: Iterable[Decider], *given: Any) -> Any:
-    """Return the first finding, whatever it says; None if no row has one."""
+    """Return the first finding, whether it decides or not; None if no row has one."""
     findings = (row.finding(*given) for row in rows)
     return next((finding for finding in findings if finding is not None), None)
 

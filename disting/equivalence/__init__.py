@@ -10,7 +10,7 @@ formulas.
 >>> str(explicit_map("3:1", "3:11").at(values)["m1"])  # of a Map
 '24/5'
 
-Before many candidates are fitted a Gate says which are the same:
+Before many candidates are fitted a Gate tells which are equivalent:
 
 >>> from disting import network_of
 >>> gate([network_of("R0-p(R1,C1)"), network_of("p(R0,R1-C1)")]).kept

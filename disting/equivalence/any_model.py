@@ -71,12 +71,12 @@ def equivalents(
     function of the given model.
 
     Of chains: `model` and `to` are chains (or a family), or text: 3:11 is model 11 of the 3-mass
-    family, 3 the family; `damped` says how `model` is meant if it is text (else it is as the chains
-    of `to`), and `to` follows it, a lag and a dead time included; 3:11+b1+lag has a damper from
-    mass 1 to the ground and a lag, 3+b* are all structures with any such dampers. `values` by
-    parameter name, numbers or text such as 3/4, positive, any consistent units; they are taken
-    exactly, floats by their decimal text. The answer is an `Equivalents`. Raises InputError for
-    wrong names and values.
+    family, 3 the family; `damped` applies to `model` if it is text (else it follows the chains of
+    `to`), and `to` follows it, a lag and a dead time included; 3:11+b1+lag has a damper from mass 1
+    to the ground and a lag, 3+b* are all structures with any such dampers. `values` by parameter
+    name, numbers or text such as 3/4, positive, any consistent units; they are taken exactly,
+    floats by their decimal text. The answer is an `Equivalents`. Raises InputError for wrong names
+    and values.
 
     `also`: further experiments, as `Experiment` or as text such as "sensor=3", at masses of the
     given model; of the equivalents those are listed that keep all responses. Masses of another
@@ -84,9 +84,9 @@ def equivalents(
 
     Of a network, a `Model` or the matrices (A, B, C) of a state space: `to` is another one, a list
     of them, or the name of a family of networks such as "circuits-4"; networks are also texts, in
-    which a circuit may state its values.
-    The answer is a `ModelEquivalent` for each that is not told apart over positive values; those
-    that are, and those with other numbers of inputs and outputs, are left out.
+    which a circuit may state its values. The answer is a `ModelEquivalent` for each that is not
+    distinguishable over positive values; the others, and those with other numbers of inputs and
+    outputs, are omitted.
 
     >>> given = {"m1": 1, "m2": 2, "m3": 3, "k12": 100, "k23": 70, "d12": "0.1", "d23": "0.3"}
     >>> found = equivalents("3:1", given, "3:11", damped=True)

@@ -1,4 +1,4 @@
-"""Formulas for the values of a network or a model that does the same as another one: by renaming,
+"""Formulas for the values of a network or a model that is equivalent to another one: by renaming,
 the theorems on chains, synthesis of parts, or sections of the equations.
 """
 
@@ -76,7 +76,8 @@ def _of_chains(model: AnyModel, other: AnyModel) -> list[ClosedForm]:
 
 def _solved(model: AnyModel, other: AnyModel) -> list[ClosedForm]:
     """Sections of the equations that hold for all generic positive values; else the roots of a
-    path, one of which does, or all that is known over complex values, as far as seen positive.
+    path, one of which does, or all those known over complex values, as far as they are found to be
+    positive.
     """
     field, the_way = Field(model.parameters), way(model, other, Domain.POSITIVE)
     if the_way is not None and the_way.covering:

@@ -34,8 +34,8 @@ from disting.verdict.sides import Given, refuse_ports
 
 class Assignment(NamedTuple):
     """`values` of a duplicate in those of the kept model, the given one, and in `steps`, values
-    that have a name, in order; where all polynomials of `where` are positive. `root`: a symbol
-    that stands for the root of a polynomial, the polynomial, from where to where.
+    that have a name, in order; where all polynomials of `where` are positive. `root`: a symbol that
+    denotes the root of a polynomial, the polynomial, from where to where.
     """
 
     given: bool
@@ -87,10 +87,10 @@ ROOT = ("name", "of", "from", "to")
 class Gate(NotebookTable):
     """Pre-fit candidate filter.
 
-    `groups`: names of the models that are the same, the one to be kept first; `duplicates`: the
-    others of them; `parameters`: by name of a kept model, which of its parameters are determined
-    over the domain of the decisions; `next`: by name of the kept model of a group, what to measure
-    to tell the group apart.
+    `groups`: names of equivalent models, the one to be kept first; `duplicates`: the others of
+    them; `parameters`: by name of a kept model, which of its parameters are determined over the
+    domain of the decisions; `next`: by name of the kept model of a group, what to measure to
+    distinguish the group.
     """
 
     decisions: Decisions
@@ -166,8 +166,8 @@ def gate(
 
     Of models that are the same over positive values (or in the domain of the query) the one with
     the fewest parameters is kept, among those the first. Two models that are no chains have one
-    number of inputs and outputs. What to measure next is told where a group is of networks of one
-    kind, or of chains of one size. Raises InputError.
+    number of inputs and outputs. The next measurement is given where a group consists of networks
+    of one kind, or of chains of one size. Raises InputError.
 
     >>> found = gate(["R0-p(R1,C1)", "p(R0,R1-C1)", "R0-p(R1,C1)-p(R2,C2)"])
     >>> found.kept

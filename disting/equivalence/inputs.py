@@ -35,9 +35,9 @@ def chains_of(to: Chain | Family | str, chain: Chain) -> tuple[Chain, ...]:
     """The chains to look at: one, or all of a family; text such as 3:11, A11 or 3 means damping
     and sensor of the given chain.
 
-    3+b1 stands for all structures of 3 masses with this damper to the ground, 3+b* for all with
-    any set of them. Families and structures given as text have the lag and the dead time of the
-    given chain too: without them none could do the same. A Chain is taken as it is.
+    3+b1 denotes all structures of 3 masses with this damper to the ground, 3+b* for all with any
+    set of them. Families and structures given as text have the lag and the dead time of the given
+    chain too: without them none could be equivalent. A Chain is taken as it is.
 
     Raises InputError.
 
@@ -135,7 +135,7 @@ def _fraction(name: str, value: Value) -> fmpq:
 
 
 def _why_positive(model: Chain | Network, name: str, is_zero: bool) -> str:
-    """Why a value has to be, and what to ask instead."""
+    """Why a value has to be, and what to use instead."""
     if isinstance(model, Chain):
         without = _without(name) if is_zero else ""
         return (

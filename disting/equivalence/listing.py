@@ -1,7 +1,7 @@
 """Equivalent models as a user gets them: values, signs, how well they agree, and whether these
 are all.
 
-A list that is not complete says why, and what helps.
+A list that is not complete gives the reason and a remedy.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -43,14 +43,14 @@ class Origin(StrEnum):
 class Equivalent:
     """A parameter vector of `chain` with the same transfer function.
 
-    `values`: floats (complex where `signs` says so) by parameter name; `text`: the same with 15
+    `values`: floats (complex where `signs` requires it) by parameter name; `text`: the same with 15
     digits; `exact`: fractions where the values are known exactly, else empty. `residual`: the
     largest relative difference between a transfer-function coefficient of the values in `text` and
     the given one (an upper bound, in ball arithmetic, so rounding to 15 digits counts); `bound`:
     the same for the values before rounding, 0 where they are exact. `free_choices`: dimension of
     the family of which this is a member. `proven`: whether the signs are proven. A vector from the
-    synthesis is known to agree within `bound`, no more: that it exists exactly is proven only
-    where `exact` is given, that no other exists where the listing is complete.
+    synthesis is known to agree within `bound`, no more: that it exists exactly is proven only where
+    `exact` is given, that no other exists where the listing is complete.
     """
 
     chain: Chain
@@ -84,7 +84,7 @@ class Equivalent:
 
 @dataclass(frozen=True, slots=True)
 class Listing:
-    """The equivalents in one structure; `complete`: there are no others. `sentence` says it in
+    """The equivalents in one structure; `complete`: there are no others. `sentence` gives it in
     words. `places`: which of its masses is which of the given model, under experiments.
     """
 

@@ -2,8 +2,8 @@
 parameters of another.
 
 Symmetries and duality for all chains that they connect; for undamped chains Cauer's continued
-fraction where a chain, or a part of it, is seen from its end; and both together. Each map is
-checked as an identity of both transfer functions.
+fraction where a chain, or a part of it, is driven and measured at its end; and both together. Each
+map is checked as an identity of both transfer functions.
 """
 
 from collections.abc import Iterator, Mapping
@@ -113,8 +113,8 @@ def explicit_map(
     one).
 
     From a structure to itself: another map than the identity, if there is one. Chains can be named,
-    such as "3:1" and "A11": `damped` says then how they are meant. Raises InputError for a text
-    that names no chain.
+    such as "3:1" and "A11": `damped` then applies to both. Raises InputError for a text that names
+    no chain.
 
     >>> found = explicit_map(Chain(2, damped=True), Chain(2, 1, 1, 2, 1, 2, damped=True))
     >>> print(found.text)

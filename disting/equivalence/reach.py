@@ -5,9 +5,9 @@ Unknowns are solved for case by case (`disting.general.cases`), each case being 
 to be positive in it. If all cases are sections, or have one equation left in their last unknown x,
 almost all values p of the given model have a positive equivalent in the other one exactly if in one
 of the cases all polynomials are positive, and the equation has a positive root at which they are.
-Only if: every equivalent of a generic p belongs to a case. If: what else is asked in a case, that
-denominators are not zero, are polynomials without a factor in common with the equation, which is
-irreducible, so at a root none of them vanishes for generic p.
+Only if: every equivalent of a generic p belongs to a case. If: the further conditions of a case,
+that denominators are not zero, are polynomials without a factor in common with the equation, which
+is irreducible, so at a root none of them vanishes for generic p.
 """
 
 from collections.abc import Iterator, Sequence
@@ -45,7 +45,7 @@ class Piece:
 @dataclass(frozen=True, slots=True)
 class Reach:
     """Where a model has positive equivalents in another one, special values aside: in any of the
-    pieces, everywhere if one of them asks for nothing, nowhere if there are none.
+    pieces, everywhere if one of them has no condition, nowhere if there are none.
     """
 
     pieces: tuple[Piece, ...]
@@ -168,7 +168,7 @@ def _texts(polynomials: Sequence[fmpz_mpoly], names: Sequence[str]) -> tuple[str
 
 
 def _least(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
-    """Without pieces that ask for all that another one asks for, and more."""
+    """Without pieces whose conditions include all those of another one."""
     every = list(dict.fromkeys(pieces))
     return tuple(p for p in every if not any(_asks_for_less(q, p) for q in every))
 

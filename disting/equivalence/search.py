@@ -170,8 +170,8 @@ def _is_complete(the_fibre: Fibre) -> bool:
 
 
 def _fibre(chain: Chain, point: Point, other: Chain) -> Fibre:
-    """The synthesis, where it says something; a dead time is no rational function and belongs
-    to both models or to none.
+    """The synthesis, where it applies; a dead time is no rational function and belongs to both
+    models or to none.
     """
     if chain.dead_time != other.dead_time:
         return Fibre(Status.EMPTY, reason="only one of them has a dead time")
@@ -189,7 +189,7 @@ def _fibre(chain: Chain, point: Point, other: Chain) -> Fibre:
 
 
 def _others(the_fibre: Fibre, exact: list[Image]) -> list[Solution]:
-    """The solutions that no theorem gives. Raises ContradictionError if a list said to be
+    """The solutions that no theorem gives. Raises ContradictionError if a list that should be
     complete lacks one that is.
     """
     rest = _unlike(the_fibre.solutions, exact)

@@ -52,7 +52,7 @@ class Expansion:
 
 
 def expansions(chain: Chain) -> Iterator[Expansion]:
-    """The chains seen from the end of the whole receptance, of the free row, of the grounded
+    """The chains as driven from the end of the whole receptance, of the free row, of the grounded
     row, or of both rows.
     """
     if chain.damped or chain.ground_dampers or chain.lag or chain.dead_time:
@@ -94,7 +94,7 @@ def row_from_end(
 
 
 def _by_rows(start: Chain, n: int, g: int, free: bool, grounded: bool) -> Expansion:
-    """The chain with one or both rows seen from the gap, the other one as it is."""
+    """The chain with one or both rows as driven from the gap, the other one unchanged."""
     chain = replace(start, act_plus=g + 1, meas_plus=g + 1) if free else start
     chain = replace(chain, act_minus=g, meas_minus=g) if grounded else chain
 

@@ -118,7 +118,7 @@ class Ranks(Kind):
         return f"rank ∂({what})/∂p = {self.left} ≠ {self.right}"
 
     def holds(self, pair: "SampledPair", representation: str) -> bool:
-        """Both ranks once more, of rows that there are, of all if it says so."""
+        """Recompute both ranks, of existing rows, of all if stated."""
         labels = [side.labels(representation, self.rows) for side in pair.sides]
         every, rows = set[str]().union(*labels), set(self.rows)
         known = rows in labels if self.all_rows else rows <= every

@@ -96,7 +96,7 @@ class Theorem(Kind):
         return THEOREMS[self.name].format(left=left, right=right) + "."
 
     def shows(self, domain: Domain) -> Relation:
-        """Of positive models of chains it is told which way they have equivalents (`BothWays`)."""
+        """For positive models of chains the direction of the equivalence is stored (`BothWays`)."""
         holds_over = {
             Domain.COMPLEX: True,
             Domain.REAL: self.name in RATIONAL,
@@ -172,7 +172,7 @@ class FibreAt(Kind):
 
     Both models are in their canonical forms. `left_given`: the point (name, fraction) is of the
     left model and the right one was searched; `grounds`: "refuted" or "construction" (see
-    `synthesis.decide`); so many of the `solutions` listed are real, so many positive.
+    `synthesis.decide`); and the numbers of real and of positive ones among the listed `solutions`.
     """
 
     kind: ClassVar[str] = "fibre"
@@ -244,7 +244,7 @@ _OBSTACLES = {
 @dataclass(frozen=True, slots=True)
 class Exclusion(Kind):
     """NEVER: the statement of that `name`, see `positivity.obstacles`; at the rational `point`, if
-    one is needed, balls are looked at.
+    one is needed, balls are used.
     """
 
     kind: ClassVar[str] = "excluded"

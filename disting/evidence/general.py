@@ -1,5 +1,5 @@
-"""Evidence of general models: equivalents as formulas for all parameters, or none; points with
-and without one; constants; networks that stand for others, of which the findings of a pair come.
+"""Evidence of general models: equivalents as formulas for all parameters, or none; points with and
+without one; constants; networks that represent others and supply the findings of a pair.
 """
 
 import re
@@ -92,7 +92,9 @@ class Explicit(OverDomain):
 
 
 def primed(name: str) -> str:
-    """Name of a parameter of the model that a map searches, beside those of the given one."""
+    """Name of a parameter of the model that a map searches, to distinguish them from those of the
+    given one.
+    """
     return f"{name}'"
 
 

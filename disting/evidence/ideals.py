@@ -1,7 +1,7 @@
 """Evidence of fibres as polynomial ideals: what one or more of them show, of whole chains, of
 their rows.
 
-A label stands for a random prime and a random point, so evidence holds labels, not numbers.
+A label denotes a random prime and a random point, so evidence holds labels, not numbers.
 """
 
 from dataclasses import dataclass
@@ -136,7 +136,7 @@ class ByRows(Kind):
         return f"{start}, so its rows have given receptances: {steps}."
 
     def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON: what is shown of a row stands beside its name."""
+        """Plain data, ready for JSON: the result of a row follows its name."""
         steps = [{"split": s.split, "part": s.part, **s.shown.to_dict()} for s in self.steps]
         return {"kind": self.kind, "left_given": self.left_given, "steps": steps}
 
@@ -153,9 +153,9 @@ class NoShares(Kind):
     """No way to share out the roots of N at the prime and point of `label` leaves parameters of
     the searched row.
 
-    `part`: the row in question where both chains have the other one in common ("grounded",
-    "free"), "" for whole chains; `shares` that were refuted, each standing for its type, in degree
-    `degree` at most.
+    `part`: the row in question where both chains have the other one in common ("grounded", "free"),
+    "" for whole chains; `shares` that were refuted, each representing its type, in degree `degree`
+    at most.
     """
 
     kind: ClassVar[str] = "shared"

@@ -1,10 +1,10 @@
 """Declarations that every kind of evidence makes.
 
-A condition is any row of the table of conditions: which one it was is seen by asking that row
-again. What shows that models are the same over complex parameters says nothing of others, unless
-it gives their values.
+A condition is any row of the table of conditions: which one it was is found by evaluating that row
+again. Evidence of equivalence over complex parameters proves nothing over others, unless it gives
+their values.
 
-It is checked on samples of both models, which are looked at anew, at fresh points.
+It is checked on samples of both models, which are drawn again, at fresh points.
 """
 
 import re
@@ -91,9 +91,9 @@ ROLES = {
 class Kind:
     """Evidence of a kind: `kind` is its name in files, its fields are what is stored.
 
-    `words`, `symbols` and `theorem` make `sentence`, `formula` and `title`, if its class says no
-    more: {0} is the evidence, {left} and {right} are the models, also by the roles (`ROLES`) that
-    a field of it gives them.
+    `words`, `symbols` and `theorem` make `sentence`, `formula` and `title`, if its class does not
+    override them: {0} is the evidence, {left} and {right} are the models, also by the roles
+    (`ROLES`) that a field of it gives them.
     """
 
     kind: ClassVar[str]
@@ -146,7 +146,7 @@ class Kind:
 
     @property
     def turned(self) -> Self:
-        """The same of the pair in the other order, where fields tell left from right."""
+        """The same for the pair in the other order, where fields tell left from right."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         inner = {name: value.turned for name, value in values.items() if isinstance(value, Kind)}
         sides = {name: name.replace("left", "right") for name in values if "left" in name}
@@ -247,7 +247,7 @@ class ModelSamples:
     draw: Callable[[Representation, int], tuple[Sample, ...]]
 
     def rank(self, representation: str, rows: Labels = ()) -> int:
-        """Rank of the named rows, or of all: the largest that is seen."""
+        """Rank of the named rows, or of all: the largest found."""
         seen = self._samples(representation, rows)
         at = tuple(i for i, label in enumerate(seen[0].labels) if not rows or label in rows)
         return max(s.rank(at) for s in seen)
@@ -301,7 +301,7 @@ def samples_of(model: Model, seed: str = "verify") -> ModelSamples:
 
 def markov_count(labels: Labels) -> int:
     """Markov parameters needed to have all these labels, such as G3 or G3[2]; raises ValueError for
-    more than are looked at.
+    more than are ever computed.
     """
     matches = (re.fullmatch(r"G(\d{1,9})(?:\[\d+\])?", label) for label in labels)
     most = max((int(x[1]) for x in matches if x), default=0)

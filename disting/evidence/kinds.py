@@ -2,7 +2,7 @@
 findings on positive parameters are `positive.PositiveEvidence`. A kind that is not named in one of
 these unions is read by nothing.
 
-What fibres tell of two models: the one answer of both engines, synthesis and ideals.
+Result of fibres for two models, common to both engines, synthesis and ideals.
 """
 
 from dataclasses import dataclass
@@ -54,7 +54,7 @@ InclusionEvidence = (
 @dataclass(frozen=True, slots=True)
 class Decision(Generic[E]):
     """`membership` with its evidence; the probability of error is at most 2**-safety. `reason`
-    says why not, or not more. A refutation row by row with `safety` 0 is proven.
+    explains an incomplete result. A refutation row by row with `safety` 0 is proven.
     """
 
     membership: Membership

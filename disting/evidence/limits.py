@@ -16,9 +16,9 @@ class RowLimit(NamedTuple):
     """A row (free or grounded) of the larger chain becomes one of the smaller chain, by `steps`
     and by a count.
 
-    Step: an element and what it tends to, masses of the row numbered anew after each. `room`:
-    rank, coordinates, factors and 1 or 0 for the mass (see `decide.inclusion.limits`) of the
-    last step; () if the steps lead to the row itself. Rows are canonical.
+    Step: an element and what it tends to, masses of the row renumbered after each. `room`: rank,
+    coordinates, factors and 1 or 0 for the mass (see `decide.inclusion.limits`) of the last step;
+    () if the steps lead to the row itself. Rows are canonical.
     """
 
     given: str
@@ -48,10 +48,10 @@ class RowLimit(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Limit(Kind):
-    """The smaller chain is a limit of the larger one, row by row; a row that is not named comes to
-    rest.
+    """The smaller chain is a limit of the larger one, row by row; a row that is not named stops
+    moving.
 
-    `smaller`, `larger`: indices of the chains of which this is said, the same as those given by a
+    `smaller`, `larger`: indices of the chains of this statement, the same as those given by a
     theorem; () for themselves.
     """
 
@@ -174,7 +174,7 @@ class LimitFibre(Kind):
     chain's rows lead to.
 
     `steps` of each row by name, the others being at rest; `solutions` at the prime and point of
-    each label, see `disting.evidence.ideals.Solutions`, where `small_given` says that the points
+    each label, see `disting.evidence.ideals.Solutions`, where `small_given` means that the points
     are of the smaller chain.
     """
 

@@ -1,8 +1,8 @@
 """Findings on positive equivalents, how many of the positive models of one chain have one in
 another, and their evidence.
 
-`source` is the model whose positive parameters are asked about, `other` the one in which
-equivalents are looked for.
+`source` is the model whose positive parameters are in question, `other` the one in which
+equivalents are searched.
 
 The evidence is on admissible parameters: positive equivalents both ways; real factors, witnesses,
 odd numbers of equivalents.
@@ -41,7 +41,7 @@ class RowWords:
     """A row (`part`) of both models: number of masses, ports of `given` and of `other`, and words
     that only `given` can have.
 
-    A word says how many zeros lie in each gap between neighbouring poles (see `words`).
+    A word gives how many zeros lie in each gap between neighbouring poles (see `words`).
     """
 
     part: str
@@ -195,10 +195,10 @@ class Empirical:
 
 @dataclass(frozen=True, slots=True)
 class PositiveFinding:
-    """`share` is proven as `certainty` says (BOUNDED: wrong with a probability of at most
+    """`share` is proven with this `certainty` (BOUNDED: wrong with a probability of at most
     2**-safety); `empirical` is sampled.
 
-    `reason` says why nothing is known. A bound that does not reach 2**-LEAST_SAFETY leaves the
+    `reason` explains why nothing is known. A bound that does not reach 2**-LEAST_SAFETY leaves the
     share unknown.
     """
 

@@ -57,9 +57,9 @@ class Change(Generic[P]):
 
 
 def changes_of(arguments: Mapping[str, object]) -> Iterator[Change[Any]]:
-    """Yield the changes that arguments of `Experiment` say: masses of what takes no size, {mass:
-    size} of what does; what a place is, is for the caller to look at. Raises InputError; TypeError
-    for an argument of no kind.
+    """Yield the changes that arguments of `Experiment` describe: masses of what takes no size,
+    {mass: size} of what does; the caller checks the place. Raises InputError; TypeError for an
+    argument of no kind.
     """
     names = [kind.argument for kind in CHANGES]
     unknown = sorted(arguments.keys() - set(names))
@@ -86,7 +86,7 @@ def in_order(changes: Iterable[Change[P]]) -> tuple[Change[P], ...]:
 
 
 def read_changes(kind: Kind, value: str, place: Callable[[str], P]) -> Iterator[Change[P]]:
-    """Yield what a command says of a kind: lock=2+3, inertia=1:0.5; `place` reads where. Raises
+    """Parse the value of a command for a kind: lock=2+3, inertia=1:0.5; `place` reads where. Raises
     InputError.
 
     >>> from disting.model.kinds import LOCK

@@ -1,5 +1,5 @@
-"""Measured chains that show the same for a reason seen at once: because they are one machine, or
-because each of their rows shows the same.
+"""Measured chains with the same behaviour for an obvious reason: because they are one machine, or
+because each of their rows has the same.
 
 One machine is numbered from the other end, or force and sensor are exchanged.
 
@@ -10,18 +10,18 @@ One machine is numbered from the other end, or force and sensor are exchanged.
 * Reflection. The free row, masses gap + 1 to n, may be numbered from its other end, with all that
   is measured and done there; no spring joins it to the masses before.
 
-Both change names of parameters only, so all transfer functions remain what they are: equal measured
-chains in the form below are the same for all parameters. `model.symmetry` knows more forms of one
-transfer function: those that exchange force and sensor in one row alone do not carry over a
-further experiment.
+Both change names of parameters only, so all transfer functions are unchanged: equal measured chains
+in the form below are the same for all parameters. `model.symmetry` knows more forms of one transfer
+function: those that exchange force and sensor in one row alone do not carry over a further
+experiment.
 
 Two chains with a gap may show the same because each row does. The receptance of a chain with a gap
 is R + F, R of the grounded and F of the free row, each between its own ports and with parameters of
 its own. What is done at one mass of a row changes this row only: the further experiment shows R' +
 F or R + F' (a mass locked or something known added), or a motion of this row alone, which the force
-causes in it (a sensor there). So all that is measured is one and the same algebraic image of two
-independent things: what that row shows, (R, R') say, and F. If the closures of both are equal on
-both sides, so are those of the images.
+causes in it (a sensor there). So all that is measured is the same algebraic image of two
+independent things: the functions of that row, (R, R') say, and F. If the closures of both are equal
+on both sides, so are those of the images.
 
 * A row whose ports and mass are the same as on the other side, maybe numbered from its other end,
   shows the same there.
@@ -146,7 +146,7 @@ def _factors(chain: Chain) -> tuple[object, ...]:
 
 
 def _done(measured: MeasuredChain) -> _Done | None:
-    """None unless one thing is done at one mass of a chain with a gap, beside what it is."""
+    """None unless a single change is made at one mass of a chain with a gap."""
     chain = measured.chain
     if not chain.gap or len(measured.experiments) != 2 or measured.experiments[0] != Experiment():
         return None

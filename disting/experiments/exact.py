@@ -2,26 +2,27 @@
 parameters that fit one experiment, put into the others (`listing`), then the ideal of one fibre of
 the stacked map.
 
-All that `fibres.ideals` says of one transfer function it says of polynomial maps: closures of
-images, fibres over a random point, tangent equations, slices, and bounds that are computed from
-the degrees, the numbers and the count of the coordinates at hand. The stacked map (`maps`) is such
-a map, so its fibre is that of all experiments with one parameter vector, and its bounds are those
-of all equations together. More equations make the ideal easier, as a rule.
+All statements of `fibres.ideals` on one transfer function are statements on polynomial maps:
+closures of images, fibres over a random point, tangent equations, slices, and bounds that are
+computed from the degrees, the numbers and the count of the coordinates at hand. The stacked map
+(`maps`) is such a map, so its fibre is that of all experiments with one parameter vector, and its
+bounds are those of all equations together. More equations make the ideal easier, as a rule.
 
 Of a whole menu, `quick_finding`: rows that show the same (`equal_machines`), lists that are made
 once for all places, ranks of parts, and ideals within limits that are soon reached.
 
 Ranks of parts. Equal closures of the images have equal closures of their projections, so whatever
-coordinates are left out, as many parameters are determined on both sides. Parts are looked at that
-mean something (`maps`): numerators, denominators, and where an inertia is added, the coefficients
-with the mass locked, those that its mass multiplies, and its mass. Condition 5 asks the same of all
-sets of invariants, one by one; where those are too many, or where it is silent because the
-coordinates are others, these few are asked in no time.
+coordinates are left out, as many parameters are determined on both sides. Meaningful parts are
+compared (`maps`): numerators, denominators, and where an inertia is added, the coefficients with
+the mass locked, those that its mass multiplies, and its mass. Condition 5 compares all sets of
+invariants, one by one; where those are too many, or where it does not decide because the
+coordinates differ, these few are compared quickly.
 
-A rank seen at a point modulo a prime is a lower bound. So the larger one is proven, and the smaller
-one is wrong only where a minor that is not zero vanishes at all points (`algebra.certainty`). A
-minor of k rows has a degree of at most the sum of those of the coordinates, less one each; its
-coefficients sum to at most k! times the product of the largest sums of a gradient's entry.
+A rank found at a point modulo a prime is a lower bound. So the larger one is proven, and the
+smaller one is wrong only where a minor that is not zero vanishes at all points
+(`algebra.certainty`). A minor of k rows has a degree of at most the sum of those of the
+coordinates, less one each; its coefficients sum to at most k! times the product of the largest sums
+of a gradient's entry.
 
 Which positive parameters of one measured chain have positive equivalents in another, where
 generic complex ones have equivalents.
@@ -34,8 +35,8 @@ Points. At a random rational point, positive, the list of one experiment is put 
 (`listing`). Equivalents are among those that are not refuted. If all of these are certainly not
 positive, the point has none. If one is left, it is the equivalent, which exists at generic points;
 its conjugate is one too and has no other place, so it is real, and it is positive if its ball is.
-Both are so all around the points. They are as sure as that the models are the same, and that the
-points are generic (see `listing`; a scale of each coordinate changes none of it).
+Both are so all around the points. They are as certain as the equivalence of the models, and that
+the points are generic (see `listing`; a scale of each coordinate changes none of it).
 """
 
 from collections.abc import Iterator, Sequence
@@ -204,7 +205,7 @@ def by_parts(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> F
 
 
 def ranks(stacked: StackedMap, labels: Sequence[str]) -> tuple[int, ...]:
-    """The largest rank of each union of parts that is seen at the points of the labels."""
+    """The largest rank of each union of parts found at the points of the labels."""
     return tuple(map(max, zip(*(_ranks_at(stacked, label) for label in labels), strict=True)))
 
 
@@ -289,7 +290,7 @@ QUICKLY = Question(
 
 
 def refuse_unequal(left: MeasuredSide, right: MeasuredSide) -> Finding | None:
-    """Not asked of unequal ranks, degrees or dead times."""
+    """Not computed for unequal ranks, degrees or dead times."""
     mine, theirs = left.transfer_profile, right.transfer_profile
     alike = mine.rank == theirs.rank > 0 and mine.degrees == theirs.degrees
     if alike and left.view.measured.chain.dead_time == right.view.measured.chain.dead_time:

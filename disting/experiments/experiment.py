@@ -28,7 +28,7 @@ Place = tuple[int, int]
 
 @dataclass(frozen=True, slots=True, init=False, repr=False)
 class Experiment:
-    """One way to measure a chain; as it stands, that of the chain itself.
+    """One way to measure a chain; by default that of the chain itself.
 
     `force` and `sensor`: a mass, or two of which the second is the other end (0 is the ground);
     None: as in the chain. `quantity`: position, velocity or acceleration, None: as in the chain.
@@ -99,9 +99,9 @@ class Experiment:
 
     @property
     def written_fields(self) -> dict[str, object]:
-        """All that it says, by the arguments that say it: masses, or (mass, size) where a size is
-        taken. Kinds that came later are there where something is done, so that what was written
-        before them is written so again.
+        """All its content, by argument: masses, or (mass, size) where a size is taken. Kinds that
+        came later are there where something is done, so that what was written before them is
+        written so again.
         """
         names = "force", "sensor", "quantity"
         said: dict[str, object] = {name: getattr(self, name) for name in names}

@@ -1,13 +1,13 @@
 """Parameters of a chain that several experiments determine together, and the number of parameter
 sets that fit.
 
-The stacked Jacobian tells what is determined locally. Where one experiment alone leaves finitely
+The stacked Jacobian gives what is determined locally. Where one experiment alone leaves finitely
 many parameter vectors, they are listed at a random point, and those that another experiment
 certainly refutes are none of the stacked fibre. That no others come at generic points is told by
 the argument of `decide.identifiability.solutions`: a hypersurface that depends on the one
 experiment alone bounds where solutions come or go, and what is refuted at the point is refuted all
 around it. If one vector is left it is the point itself, and all parameters are globally
-identifiable. Otherwise the ideal of the stacked fibre tells for each parameter whether it has one
+identifiable. Otherwise the ideal of the stacked fibre decides for each parameter whether it has one
 value.
 
 A dead time is the factor exp(-Td s) of every transfer function, so Td is globally identifiable

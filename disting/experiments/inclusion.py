@@ -45,7 +45,7 @@ ProfileOf = Callable[[MeasuredChain], Profile]
 def inclusions_under(
     left: MeasuredChain, right: MeasuredChain, profile_of: ProfileOf
 ) -> Inclusions:
-    """Both statements on two measured chains of unequal rank; equivalents are not looked for where
+    """Both statements on two measured chains of unequal rank; equivalents are not searched where
     limits are not excluded.
     """
     profile_of = cache(profile_of)

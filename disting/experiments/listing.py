@@ -13,9 +13,9 @@ known lower degrees. That is no more than the 3 N_B + 2 of `synthesis.decide.saf
 the degree of a component, D^(n + 1) at most, does not depend on how many equations there are. The
 point is the same for all experiments that may be listed, so no more points are drawn than there.
 
-Where many experiments are asked of few chains (`shared`), the point belongs to the chains, in their
-canonical form, whatever is done to them. So all that fits the present experiment is listed once,
-and each further experiment at each place is only an evaluation of that list. Each statement has the
+Where many experiments are decided for few chains (`shared`), the point belongs to the chains, in
+their canonical form, for all changes. So all that fits the present experiment is listed once, and
+each further experiment at each place is only an evaluation of that list. Each statement has the
 bound of its point, and bounds of many statements add up, whether their points are one or many. (A
 comparison of its own has its own point: experiments could be written for a point that is known.)
 """

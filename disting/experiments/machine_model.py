@@ -1,6 +1,6 @@
-"""A measured chain as a model of the general kind, whatever is done to the machine: one transfer
+"""A measured chain as a model of the general kind, for any changes of the machine: one transfer
 function an experiment, and a dead time that all share; their degrees, what vanishes, which
-denominators are one and the same, and the proof of a renaming.
+denominators are equal, and the proof of a renaming.
 
 Degrees. In an entry in which force and sensor have one end each in every row that both reach, all
 terms of a row's numerator have one sign (all-minors matrix-tree theorem; what is added
@@ -43,7 +43,7 @@ REMEMBERED = 1024
 @dataclass(frozen=True, slots=True)
 class Shape:
     """Powers of s in numerator and denominator in lowest terms, both empty for an entry that is
-    zero; `denominator` is equal for entries that have one and the same denominator.
+    zero; `denominator` is equal for entries that have the same denominator.
     """
 
     numerator: frozenset[int]
@@ -209,8 +209,8 @@ class MachineModel:
 
         What is known makes numbers of h bits larger at most, h those of the integers that A(s) has
         in the place of 1 or of a known size; each of N rows brings one, and a row has a term more
-        for each thing that is added to its mass, beside 6. A difference of two denominators has
-        both leading coefficients below it, so twice the power.
+        for each thing that is added to its mass, in addition to 6. A difference of two denominators
+        has both leading coefficients below it, so twice the power.
         """
         n, entries = self.measured.chain.n_masses, self.measured.entries
         bits = max(_term_bits(entry) + _height(entry) for entry in entries) * n + 4

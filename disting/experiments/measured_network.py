@@ -1,6 +1,6 @@
 """Networks under several experiments with one vector of values: a matrix of transfer functions.
 
-A force or a sensor at another place is another port. What is done at node i is seen without another
+A force or a sensor at another place is another port. A change at node i is computed without another
 network: with the transfer functions T from all forces and from i to all sensors and to i, in one
 sensor quantity s^q,
 
@@ -180,7 +180,7 @@ def _changed(
     cells: list[list[RationalFunction]], row: int, column: int, known: RationalFunction | None
 ) -> list[list[RationalFunction]]:
     """All transfer functions with something done at the node of this row and column; `known`:
-    s^q/h, None of what is held. A node that stands still already feels nothing of it.
+    s^q/h, None of what is held. A node that is already locked is not affected.
     """
     own = cells[row][column]
     below = own if known is None else known + own
@@ -220,8 +220,8 @@ def _stack(blocks: Sequence[Ratios], network: Network, name: str) -> MatrixModel
 
 
 def _gain(kind: Kind, more: Ratios, whole: Sequence[Ratios]) -> Gain:
-    """SILENT where nothing is seen; REPEATS where all that is seen is seen already, but for its
-    sign, or follows from it, as force and sensor are at the node to which something is added.
+    """SILENT where nothing is measured; REPEATS where all that is measured is known already, up to
+    its sign, or follows from it, as force and sensor are at the node to which something is added.
     `whole`: as it is, and with the sensor, the force, and both at the node.
     """
     seen = _nonzero(more)

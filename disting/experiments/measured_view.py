@@ -1,11 +1,11 @@
 """A chain under several experiments as it is compared.
 
-Conditions 1 to 7 are asked of the stacked summary word for word, and so is condition 8: where one
+Conditions 1 to 7 apply to the stacked summary without change, and so is condition 8: where one
 model is the other with elements missing and all experiments are at the same masses, missing
 elements that go to zero carry one tuple of transfer functions into the other, so the closure of its
 image lies in that of the other, and of equal rank they are equal. Condition 9 would be as true, but
 its third model, with the elements of both, is no chain of the class: it has no gap where theirs
-differ, so it cannot be measured as chains are, and what it would say the exact decision finds.
+differ, so it cannot be measured as chains are, and the exact decision finds its result.
 """
 
 from dataclasses import dataclass, replace

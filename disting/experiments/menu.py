@@ -142,8 +142,8 @@ def gain(chain: Chain, item: Item) -> Gain | None:
 
     Implied are the same transfer function G and, where force and sensor are at the one mass to
     which h(s) is added, such as J s^2, G/(1 + h R) with the receptance R = G/s^q, q
-    differentiations; a lag stands between both. NEW is proven: what differs at a point modulo a
-    prime differs.
+    differentiations; a lag is between both. NEW is proven: what differs at a point modulo a prime
+    differs.
     """
     both = measure_with(chain, item)
     plain, further = both.entries

@@ -76,7 +76,7 @@ def ways(
     asked: Sequence[PlacedExperiment],
     fixed_places: Places = (),
 ) -> list[Places]:
-    """Every way to say which masses of the right model the named ones of the left model are;
+    """Every assignment of which masses of the right model the named ones of the left model are;
     raises InputError.
     """
     for item in asked:

@@ -86,8 +86,8 @@ def fit_networks(
     progress: Progress = silent,
 ) -> NetworkSelection:
     """Fit networks to a measured response, or to several: those of the first sensor to all inputs,
-    then those of the next one, as a `MatrixModel` has its rows. `measured.sensor` says what sensors
-    of machines show, an impedance is that of circuits. Raises InputError.
+    then those of the next one, as a `MatrixModel` has its rows. `measured.sensor` is the quantity
+    of sensors of machines; circuits give an impedance. Raises InputError.
 
     >>> import numpy as np
     >>> from disting.network import network_of
@@ -184,8 +184,8 @@ def _first_of_same(decided: Decisions, count: int) -> list[int]:
 def search_from(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
     """The best values found from starts, shape (n_s, n_p).
 
-    Logarithms lead, whatever the cost: from far away distances in the complex plane see the peaks
-    alone. A network without losses is searched with broad resonances first.
+    Logarithms are used first, for every cost: far from the optimum distances in the complex plane
+    depend on the peaks alone. A network without losses is searched with broad resonances first.
     """
     box, leading = Box(np.zeros(len(plant.parameters)), plant.highest), cost.leading
     breadths = BREADTHS if is_lossless(plant.network) else ()
@@ -207,7 +207,7 @@ def search_from(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
 def _judged(
     plant: AnyNetworkPlant, start: Real, cost: AnyCost, scatter: Scatter, rank: int
 ) -> FittedNetwork:
-    """Brought to the last digit in units of the scatter, and seen beside it."""
+    """Refined to the last digit in units of the scatter, and compared with it."""
     whitened = WhitenedCost(cost, scatter)
     p, _ = fine(plant, whitened, Box(np.zeros(len(plant.parameters)), plant.highest), start)
     residual, columns = whitened.of(plant, p)

@@ -1,10 +1,10 @@
 """Model selection (section 2.2): fit all candidates, keep those that the data do not exclude, take
 the simplest.
 
-What the data exclude, and which of the others is selected, is told in `choice`, by the residuals on
-independent test data where there are such; without them cross-validation over the frequency lines
-gives a cost that orders candidates. What comes out is a set, of which one is selected (`members`),
-after the question whether any candidate explains the data at all (`explanation`).
+What the data exclude, and which of the others is selected, is decided in `choice`, by the residuals
+on independent test data where there are such; without them cross-validation over the frequency
+lines gives a cost that orders candidates. What comes out is a set, of which one is selected
+(`members`), after the question whether any candidate explains the data at all (`explanation`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -89,20 +89,20 @@ def select(
 
     Parameters are those of the highest likelihood: the search is by logarithms, whose costs have
     few valleys, the last digits are found in the complex plane in units of what each line scatters
-    (`Cost.likely`), where noise is normal however small a response is beside it. A cost of the
-    paper is kept to the end where one is named: by its `case`, by `weights` of amplitude and phase,
-    see `Cost`, by the weights that `lines` gives, such as `lines_by_deviation`, or if all lines
-    count `alike`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
+    (`Cost.likely`), where noise is normal however small a response is compared with it. A cost of
+    the paper is kept to the end where one is named: by its `case`, by `weights` of amplitude and
+    phase, see `Cost`, by the weights that `lines` gives, such as `lines_by_deviation`, or if all
+    lines count `alike`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
     `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
     and `fixed`, are fitted once; `most_lines`: of a response with more so many are fitted, and its
-    `reading` says so; `controller`: one whose margins are told (`reliance`); `method` as in
+    `reading` states it; `controller`: one whose margins are reported (`reliance`); `method` as in
     `estimates`. An engine with a store resumes interrupted work. Raises InputError, also for an
     impedance, to which no chain is fitted.
 
     `quantity` of the sensor, "position", "velocity" or "acceleration": what `train` and `test`
     show, whatever they were read as, and what the candidates answer with (default: as they are).
     Where the sensor quantity of `train` is assumed and another one explains the data as well,
-    nothing is selected: `question` of the result asks for it, `quantities` are the readings.
+    nothing is selected: `question` of the result requests it, `quantities` are the readings.
 
     `further`: responses of the same machine that are fitted together with `train`, one parameter
     vector for all; each counts in units of its own scatter (`Weights`). Candidates without their
@@ -172,7 +172,7 @@ def _fits(
     method: Method | None,
     work: Work,
 ) -> Fits:
-    """Searched by logarithms, then, where the highest likelihood is asked for, brought to the last
+    """Searched by logarithms, then, where the highest likelihood is requested, brought to the last
     digit in units of what each line scatters.
     """
     store, executor, progress = work.engine.store, work.executor, work.progress
@@ -308,7 +308,7 @@ def _tried(
 
 
 def _represented(candidates: Sequence[Chain], task: Task, engine: Engine) -> dict[Chain, Chain]:
-    """Candidates that are not fitted, each with the one that stands for it in all responses."""
+    """Candidates that are not fitted, each with the one that represents it in all responses."""
     within = limits_of(task.bounds, task.fixed)
     # what stands for another in the first response need not do so in the others
     first = representatives(candidates, engine, within)

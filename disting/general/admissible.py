@@ -1,10 +1,10 @@
 """Equivalence over real or positive parameters of models that are equivalent over complex ones:
 always, never or for some.
 
-What is known each way (see `ways`) is put together: INDISTINGUISHABLE if all generic parameters of
-either model have an equivalent in the other one; DISTINGUISHABLE if those of one have none, and so
-no admissible parameters agree, but for thin sets; SOMETIMES if in an open set there is an
-equivalent, and in another one, of either model, there is none (see `witnesses`). All of it is
+The results in both directions (see `ways`) is put together: INDISTINGUISHABLE if all generic
+parameters of either model have an equivalent in the other one; DISTINGUISHABLE if those of one have
+none, and so no admissible parameters agree, but for thin sets; SOMETIMES if in an open set there is
+an equivalent, and in another one, of either model, there is none (see `witnesses`). All of it is
 proven.
 """
 
@@ -85,7 +85,7 @@ class ValueSearch:
 def admissible_finding(
     left: AnyModel, right: AnyModel, domain: Domain, seed: str, effort: Effort = THOROUGH
 ) -> Finding:
-    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with what was seen."""
+    """HOLDS, FAILS or SOMETIMES with its evidence, or ABANDONED with the partial results."""
     rows = VALUES_POSITIVE.rows if domain is Domain.POSITIVE else VALUES_REAL.rows
     finding: Finding = first_finding(rows, ValueSearch(left, right, domain, seed, effort))
     return finding
@@ -154,7 +154,7 @@ def by_witnesses(search: ValueSearch) -> Finding | None:
 
 
 def by_maps(search: ValueSearch) -> Finding | None:
-    """Formulas for all parameters, where no point without an equivalent was seen."""
+    """Formulas for all parameters, where no point without an equivalent was found."""
     formulas = None if search.seen[1] else _formulas(search)
     return _always(formulas, search.left, search.right) if formulas else None
 
@@ -173,8 +173,8 @@ def by_more_numbers(search: ValueSearch) -> Finding | None:
 
 
 def by_all_inequalities(search: ValueSearch) -> Finding | None:
-    """Inequalities with all starts. A brief search of many values has asked for them first, and
-    asks no longer.
+    """Inequalities with all starts. A brief search of many values has tried them first, and does
+    not repeat them.
     """
     most = search.effort.unknowns
     was_brief = most is not None and search.size > most

@@ -2,9 +2,9 @@
 given rational values.
 
 The equations of the fibre (see `target`) have no zero, finitely many or infinitely many, which a
-Groebner basis over Q tells without chance; what is said of them is proven (see `fibre`).
-Alternatives keep the order of the model: parameters at which its leading denominator coefficient
-is zero are none.
+Groebner basis over Q decides without chance; statements on them are proven (see `fibre`).
+Alternatives keep the order of the model: parameters at which its leading denominator coefficient is
+zero are none.
 """
 
 from collections.abc import Mapping, Sequence

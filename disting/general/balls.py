@@ -2,11 +2,11 @@
 polynomials whose roots are needed.
 
 Numbers are fractions as long as no root is irrational, then balls that hold them. Of a one-port of
-two kinds of elements nothing else is positive: in series a positive branch is of its set
-K(n, c, z), so that the constant and the pole at 0 go where one is asked for, and as F has as many
-different poles as all branches have terms, no two of them share one (see `synthesis`). So these are
-all, but for exchanges of branches that are alike, unless elements share what only their sum
-determines. Of trees of compartments the same holds: d_i, p_ij and all flows follow.
+two kinds of elements nothing else is positive: in series a positive branch is of its set K(n, c,
+z), so that the constant and the pole at 0 go where one is required, and as F has as many different
+poles as all branches have terms, no two of them share one (see `synthesis`). So these are all, but
+for exchanges of branches that are alike, unless elements share what only their sum determines. Of
+trees of compartments the same holds: d_i, p_ij and all flows follow.
 """
 
 from collections.abc import Sequence

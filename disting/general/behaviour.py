@@ -9,12 +9,12 @@ common root, is drawn again. This conditions the probability of an error on an e
 above 1/2 (its complement is bounded by `sampling.safety` as well), so it can double it: one bit a
 point.
 
-Constants. Coefficients are explicit polynomials in lowest terms, so it is seen without chance which
-are zero or constant multiples of the leading one. Markov parameters follow from G_k = b_(m-k) -
-sum_j a_(m-j) G_(k-j), j = 1..k (monic form of degree m); this recurrence is run with the known
-constants alone, which proves the zeros below the relative degree and those of even and odd
-transfer functions, and constants such as a leading b that is 1. Two monic denominators D1/a1 and
-D2/a2 are one and the same exactly if D1 a2 = D2 a1.
+Constants. Coefficients are explicit polynomials in lowest terms, so it is decided without chance
+which are zero or constant multiples of the leading one. Markov parameters follow from G_k = b_(m-k)
+- sum_j a_(m-j) G_(k-j), j = 1..k (monic form of degree m); this recurrence is run with the known
+constants alone, which proves the zeros below the relative degree and those of even and odd transfer
+functions, and constants such as a leading b that is 1. Two monic denominators D1/a1 and D2/a2 are
+equal exactly if D1 a2 = D2 a1.
 
 Renamings. A renaming carries coefficients in lowest terms over the integers into coefficients, all
 of them or none with the sign changed. The functions c_i a_m (a_m the leading denominator

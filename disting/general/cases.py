@@ -12,9 +12,9 @@ equal, fractions in lowest terms, whose denominators divide powers of the leadin
 are not zero where these are not: u(q) v(p) = u(p) v(q).
 
 CASES. A case is a set of equations, of inequalities g > 0 and of unknowns that are solved for, q_j
-= N/c. It starts with all equations and, over positive numbers, with nothing else: q > 0 is asked
-of each unknown when it is solved for. Each step replaces one case by others which together have
-the same admissible solutions:
+= N/c. It starts with all equations and, over positive numbers, with nothing else: q > 0 is required
+of each unknown when it is solved for. Each step replaces one case by others which together have the
+same admissible solutions:
 
 * A factor of an equation that has one sign is not zero: it is left out. A factor in the p alone is
   not zero where p is generic: it is left out and listed in `generic`. An equation without any

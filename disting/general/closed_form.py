@@ -43,8 +43,8 @@ Writer = Callable[[RationalFunction], str]
 class ClosedForm:
     """`values` of the parameters of another model, in those of the given one and in `steps`, for
     values at which all of `where` are positive. `choices`: elements that share equally what could
-    be shared in infinitely many ways. `seen`: at how many points
-    they were positive, where no theorem says that they are everywhere.
+    be shared in infinitely many ways. `seen`: at how many points they were positive, where no
+    theorem proves it everywhere.
 
     They give the same transfer functions wherever no denominator is zero; a wrong formula would
     have passed with a probability of at most 2^-safety.

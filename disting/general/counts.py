@@ -9,7 +9,7 @@ is the same near by. By (1) the positive zeros of h stay within some [a, b], 0 <
 near by; by (2) they are simple, so they move continuously, and as many as before; by (3) no g_k
 changes its sign at them.
 
-So the number at one rational p is that of all. That there are no common zeros is seen from the
+So the number at one rational p is that of all. That there are no common zeros follows from the
 signs of the factors of resultants, or from the search for cases (see `cases`), in which all of p
 and x are unknown then.
 """
@@ -131,8 +131,8 @@ def count_roots_at(
     point of whole numbers, and near it, at which all products that are `asked` are positive; every
     sign certified.
 
-    None at a special point: where roots are multiple or infinite, or what is asked or to be
-    `nonzero` is zero.
+    None at a special point: where roots are multiple or infinite, or one of the `asked` or
+    `nonzero` polynomials is zero.
     """
     plain, *others = (_in_root(e, at, point) for e in (equation, *nonzero))
     products = [[_in_root(g, at, point) for g in factors] for factors in asked]

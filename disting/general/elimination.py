@@ -1,5 +1,5 @@
 """Cases of equations and inequalities: values put into them, and two equations in two unknowns as
-one equation in one of them. What cases are, and why it is right, is told in `cases`.
+one equation in one of them. See `cases` for the definition of cases and the proof.
 
 Let e and f be polynomials in x and y, irreducible and different, and let R be their resultant in y.
 R = A e + B f, so R(x) = 0 at every common zero: one of its factors h is zero there.
@@ -224,7 +224,7 @@ def put_positive(
 def inequalities(
     ring: Orthant, polynomials: Iterable[fmpz_mpoly]
 ) -> tuple[tuple[fmpz_mpoly, ...], fmpz_mpoly | None]:
-    """The inequalities that are not seen to hold, shortened, and one that fails or contradicts
+    """The inequalities that are not proven to hold, shortened, and one that fails or contradicts
     another, if there is one.
     """
     kept: list[fmpz_mpoly] = []

@@ -2,9 +2,9 @@
 with certified signs.
 
 A zero of an ideal is real exactly if u is, a rational linear combination of its coordinates that
-determines them. Real roots are told from others by FLINT's isolation of roots. A coordinate g(u)
-is zero exactly if f divides g; the sign of any other one is seen in ball arithmetic once the balls
-are small enough.
+determines them. Real roots are isolated by FLINT's isolation of roots. A coordinate g(u) is zero
+exactly if f divides g; the sign of any other one is found in ball arithmetic once the balls are
+small enough.
 """
 
 from collections.abc import Iterator, Mapping
@@ -133,7 +133,7 @@ def evaluate(polynomial: fmpq_poly, at: acb) -> acb:
 
 
 def _sign(polynomial: fmpq_poly, image: acb) -> int | None:
-    """Sign of a real number; None if the ball is too wide to tell."""
+    """Sign of a real number; None if the ball is too wide."""
     if polynomial.is_zero():
         return 0
     return 1 if image.real > 0 else -1 if image.real < 0 else None

@@ -7,9 +7,9 @@ texts and numbers are bounded before anything is computed. (Python's own parser 
 in an error for long ones.)
 
 Only exact numbers enter: integers, fractions, decimals written in a text ("0.1" is 1/10). A float
-is taken if it is a whole number; any other one stands for a rounded number, and its digits are to
-be written as text. SymPy expressions are recognised by their own attributes, so SymPy itself is
-not needed. Symbols are known by their names alone, whatever they are assumed to be.
+is taken if it is a whole number; any other one is a rounded number, and its digits are to be
+written as text. SymPy expressions are recognised by their own attributes, so SymPy itself is not
+needed. Symbols are known by their names alone, whatever they are assumed to be.
 
 Evidence is stored as FLINT writes polynomials and fractions, and read back so: its bytes depend on
 no printer's taste.

@@ -92,7 +92,7 @@ def _listed(
 def without_zeros(
     equations: Sequence[Sparse], parameters: tuple[str, ...], seed: str, bounds: Bounds
 ) -> tuple[Equivalent, ...] | None:
-    """All solutions without zeros of equations in t, of which they tell nothing, and the
+    """All solutions without zeros of equations in t, which they do not determine, and the
     parameters, if finitely many are listed within the bounds for some choice of inverses.
     """
     unknowns = range(1, len(parameters) + 1)

@@ -149,8 +149,8 @@ def _of_degree(network: Network, degree: int, powers: Powers) -> tuple[Model, ..
 
 
 def one_less(whole: Network, at: int, contracted: bool) -> Network | None:
-    """A one-port with an element deleted or contracted, as far as it is seen; None where the port
-    is open or shorted then.
+    """A one-port with an element deleted or contracted, as far as it can be measured; None where
+    the port is open or shorted then.
     """
     places = {i: i for e in whole.elements for i in (*e.nodes, 0)}
     places |= {i: i for p in whole.ports for i in (p.plus, p.minus)}

@@ -3,8 +3,8 @@ own, and of roots of quadratic equations.
 
 A value of more than some terms gets a name, and what is made of it contains the name. So what would
 be a fraction of thousands of terms is some short ones. Names are not independent: whether a value
-is zero cannot be seen from how it is written. Who builds values knows that from elsewhere, and what
-is built is put into what it is to solve (see `closed_form`).
+is zero cannot be decided from its notation. Code that builds values ensures it otherwise, and the
+values are substituted into the equations (see `closed_form`).
 """
 
 from abc import abstractmethod
@@ -64,8 +64,8 @@ def four(value: RationalFunction) -> RationalFunction:
 
 
 class Arithmetic:
-    """Polynomials in x over a field, of which a subclass says what its values are. `choices`:
-    elements of which only some sum of what they have is determined.
+    """Polynomials in x over a field, a subclass defines its values. `choices`: elements of which
+    only some sum of what they have is determined.
     """
 
     one: Any
@@ -193,7 +193,7 @@ class Field(Arithmetic):
         return self[f"{start}{number}"]
 
     def written(self, values: Assignment) -> tuple[tuple[Step, ...], Assignment]:
-        """The steps that values are made of, numbered anew, and the values: one that is a name that
+        """The steps that values are made of, renumbered, and the values: one that is a name that
         occurs nowhere else is written out.
         """
         steps = {s.name: s for s in self._needed(v for _, v in values)}
@@ -238,8 +238,8 @@ class Field(Arithmetic):
         )
 
     def factors(self, polynomial: Poly) -> list[Poly]:
-        """Polynomials whose product it is, but for a factor without x; none of them a product as
-        far as is seen from how its coefficients are written.
+        """Polynomials whose product it is, up to a factor without x; none of them is a product as
+        far as the notation of its coefficients shows.
         """
         common = reduce(_multiple, (c.den for c in polynomial))
         x = self.ring[" "]

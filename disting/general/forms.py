@@ -1,9 +1,9 @@
-"""Two networks by those that stand for them: the simplest ones that give the same transfer
-functions, or, of one-ports of two kinds of elements, all functions of the set K(n, c, z) in which
-theirs are (see `replacement`).
+"""Two networks by their representatives: the simplest ones that give the same transfer functions,
+or, of one-ports of two kinds of elements, all functions of the set K(n, c, z) in which theirs are
+(see `replacement`).
 
 Values special to a network are of measure zero among its functions, which are those of the other
-one but for such. So what is said of generic functions of the simplest networks is true of the given
+one but for such. So statements on generic functions of the simplest networks hold for the given
 ones: all have equivalents, none has, or open sets of either kind exist. Of a network that gives
 more functions, but no more of larger dimension (as many as the rank of the given one), one thing
 follows only: where none of them has an equivalent, special ones aside, those of the given network
@@ -54,7 +54,7 @@ REMEMBERED = 1024  # pairs of simplest networks: others of a family have the sam
 
 @dataclass(frozen=True, slots=True)
 class Forms:
-    """The networks that stand for two others; those that are `larger` may give more."""
+    """The networks that represent two others; those that are `larger` may give more."""
 
     models: tuple[AnyModel, AnyModel]
     larger: tuple[bool, bool]
@@ -193,7 +193,7 @@ def confirms_forms(
 def _stand_for(
     evidence: Replacement, left: AnyModel, right: AnyModel
 ) -> tuple[AnyModel, AnyModel] | None:
-    """The networks that it names, if they stand for both: the simplest ones, or such as texts have
+    """The networks that it names, if they represent both: the simplest ones, or such as texts have
     them.
     """
     forms = forms_of(left, right, evidence.left_larger or evidence.right_larger)

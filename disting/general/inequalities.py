@@ -1,5 +1,6 @@
 """Inequalities between the coefficients of a transfer function that all positive values of a model
-satisfy: by one of them that another model breaks the two are told apart, around a point or wholly.
+satisfy: by one of them that another model breaks the two are distinguished, around a point or
+wholly.
 
 Let c_i(q) be the coefficients of numerator and denominator of the searched model, those left out
 that are always zero, g_i(p) the same ones of the given model, and f = sum f_ij x_i x_j a quadratic
@@ -10,11 +11,11 @@ is not zero, no positive p has one but such as have common roots.
 Proof. At an equivalent q of such a p all c(q) are g(p) times one number, t. So f(c(q)) = t^2
 f(g(p)) < 0, but it is not negative for q > 0. Near p the same is true.
 
-Products c_i c_j that share no monomials, nor share some with others in between, have no say in
+Products c_i c_j that share no monomials, nor share some with others in between, do not influence
 each other: each group of them has its own forms. They are a cone, sum f_ij m_ij >= 0 for each
 monomial m, and all of its forms are sums of those on its edges, which are listed exactly (double
-description method, Motzkin 1953). Forms that are zero at all q are left aside: they are zero at
-the given model too, if both have the same functions over complex values.
+description method, Motzkin 1953). Forms that are zero at all q are left aside: they are zero at the
+given model too, if both have the same functions over complex values.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

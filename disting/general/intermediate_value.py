@@ -2,19 +2,18 @@
 
 In a case with one equation h = 0 some unknowns are chosen as fractions of the p, and for the last
 one, x, two points a, b of [0, oo] are sought between which h changes its sign for all p: the
-numerators of h(a) and h(b) have opposite signs, and all inequalities hold on the whole way x = (a
-+ b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t they have
-positive coefficients. So h has a root on the way. Or only this:
-THEOREM. Let each inequality g > 0 hold on the whole way, or let g(a) > 0 and h have the sign of
-h(b) wherever g = 0 on it. Then all hold at the root of h that is nearest to a.
-Proof. From a up to this root h has the sign of h(a). Had g a zero there, h would have that of h(b).
-What h is where g = 0 shows its remainder after division by g, multiplied by powers of the leading
-coefficient of g, which is to have one sign. What is solved for is N/c, and inequalities lose
-even powers, so it is also asked that the `nonzero` polynomials of the case, among them these c, N
-and lead(q), have no common factor with h that contains x: then for generic p none of them is zero
-at any root of h (their resultant with h, a polynomial in the p, is not zero), and all other
-unknowns are positive there. What is tried: 0, oo, 1, single p, sums and quotients of products of a
-few of them, and the roots of linear inequalities.
+numerators of h(a) and h(b) have opposite signs, and all inequalities hold on the whole way x = (a +
+b t)/(1 + t), t > 0, a and b over their denominators: as polynomials in p and t they have positive
+coefficients. So h has a root on the way. Or only this: THEOREM. Let each inequality g > 0 hold on
+the whole way, or let g(a) > 0 and h have the sign of h(b) wherever g = 0 on it. Then all hold at
+the root of h that is nearest to a. Proof. From a up to this root h has the sign of h(a). Had g a
+zero there, h would have that of h(b). What h is where g = 0 shows its remainder after division by
+g, multiplied by powers of the leading coefficient of g, which is to have one sign. What is solved
+for is N/c, and inequalities lose even powers, so it is also required that the `nonzero` polynomials
+of the case, among them these c, N and lead(q), have no common factor with h that contains x: then
+for generic p none of them is zero at any root of h (their resultant with h, a polynomial in the p,
+is not zero), and all other unknowns are positive there. What is tried: 0, oo, 1, single p, sums and
+quotients of products of a few of them, and the roots of linear inequalities.
 """
 
 from collections.abc import Iterator
@@ -127,7 +126,7 @@ def _root(ring: Orthant, case: Case, at: int) -> Path | None:
 
 
 def _changed(ring: Orthant, equation: fmpz_mpoly, at: int, low: Mark, high: Mark) -> int:
-    """The sign at the one end if it is seen to be opposite to that at the other one, else 0."""
+    """The sign at the one end if it is found to be opposite to that at the other one, else 0."""
     if low.sign == high.sign:
         return 0
     signs = [_seen(ring, ring.put(equation, at, *mark.end)[0]) for mark in (low, high)]

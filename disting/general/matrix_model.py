@@ -6,7 +6,7 @@ depend on parameters.
 Entries are rational functions of the parameters; their denominators are cleared. G is brought to
 lowest terms over Z[s, p] exactly: what is common for all parameters (such as a mode that is not
 controllable or not observable) is cancelled. Then G has one form but for the sign, which is fixed,
-and its coefficients say exactly which of them vanish or are constant.
+and its coefficients show exactly which of them vanish or are constant.
 
 Parametric models with several inputs and outputs: matrices of rational transfer functions with
 one parameter vector, of a state space at rest (zero initial state).
@@ -57,13 +57,12 @@ class Model(NotebookTable):
     `from_network` or `from_chain`.
 
     `parameters` by name; `numerator_terms` and `denominator_terms` hold the coefficients of s^0,
-    s^1, .., of networks with Warburg or constant phase elements those of v^0, v^1, .., for which
-    `powers` says what they are. Immutable and hashable; two models are equal if
-    their parameters and coefficients are, whatever they are called. `network`: the network that it
-    is, where it was made of one; `chain`: the chain that it is, in the chain's own parameters;
-    such models are compared as chains. What is made of one by `dataclasses.replace` is a transfer
-    function alone: it may be another one. Raises InputError for a name that is not printable, which
-    could say more than a name.
+    s^1, .., of networks with Warburg or constant phase elements those of v^0, v^1, .., defined by
+    `powers`. Immutable and hashable; two models are equal if their parameters and coefficients are,
+    whatever they are called. `network`: the network that it is, where it was made of one; `chain`:
+    the chain that it is, in the chain's own parameters; such models are compared as chains. What is
+    made of one by `dataclasses.replace` is a transfer function alone: it may be another one. Raises
+    InputError for a name that is not printable, which could contain more than a name.
 
     >>> str(Model.from_transfer_function(["k"], ["m", "d", "k"]))
     'G(s) = k/(k + d*s + m*s**2)'
@@ -184,7 +183,7 @@ class Model(NotebookTable):
 
         def __getattr__(self, name: str) -> object:
             """The terms of a network that are only counted are written out when they are first
-            asked for; raises InputError where they are too many.
+            requested; raises InputError where they are too many.
             """
             if name not in TERMS:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
@@ -228,7 +227,7 @@ class Model(NotebookTable):
 
     @property
     def content(self) -> tuple[object, ...]:
-        """All that tells two models apart: their names do not."""
+        """All that distinguishes two models: their names do not."""
         weights = (weight for _, weight in self.powers.weights)
         powers = (*("halves",) * self.powers.halves, *weights)
         return self.parameters, self.numerator_terms, self.denominator_terms, *powers
@@ -298,7 +297,7 @@ def unwritten(network: Network) -> Model:
 def entry_of(
     ratio: RationalFunction, parameters: tuple[str, ...], name: str, powers: Powers = PLAIN
 ) -> Model:
-    """The same without asking for parameters: of a matrix not every entry has some."""
+    """The same without requiring parameters: of a matrix not every entry has some."""
     cell = cell_in(ratio, powers.exponents, len(parameters))
     top, bottom, powers = in_v(cell, powers)
     if any(
@@ -441,7 +440,7 @@ class MatrixModel(NotebookTable):
 
     @property
     def content(self) -> tuple[object, ...]:
-        """All that tells two models apart: their names do not."""
+        """All that distinguishes two models: their names do not."""
         return self.parameters, self.shape, *(e and e.content[1:] for e in self.cells)
 
     def __str__(self) -> str:

@@ -33,7 +33,7 @@ FORMS = (
 
 
 class Number(str):
-    """A number as it stands in the file."""
+    """A number as written in the file."""
 
     __slots__ = ()
 
@@ -85,8 +85,8 @@ def text_of(entry: Plain, key: str, default: str) -> str:
 
 def as_entry(model: AnyModel) -> dict[str, object]:
     """A model as a file has it: a chain by its name, a network by its elements, another one by its
-    transfer function in lowest terms; a matrix as its expressions, parameters that they lack beside
-    them. Raises InputError for a parameter s.
+    transfer function in lowest terms; a matrix as its expressions, with the parameters that they
+    lack. Raises InputError for a parameter s.
     """
     refuse_s(model)
     chain = as_chain(model)
@@ -110,7 +110,7 @@ def read_entry(entry: Mapping[str, object]) -> AnyModel:
 
 
 def of_kind(entry: Plain, name: str, variable: str) -> AnyModel:
-    """The model of an entry, by the key that says its kind; raises InputError."""
+    """The model of an entry, by the key for its kind; raises InputError."""
     kinds = [kind for kind in KINDS if kind in entry]
     if len(kinds) != 1:
         raise InputError(f"a model is {FORMS}; this one is {' and '.join(kinds) or 'none of them'}")
@@ -215,7 +215,7 @@ def _ratio(sides: Mapping[str, list[str]]) -> str:
 
 
 def _of_entry(model: Model) -> dict[str, list[str]]:
-    """Coefficients of falling powers; parameters that they lack stand there times zero."""
+    """Coefficients of falling powers; parameters that they lack are written times zero."""
     num, den = (
         [polynomial_text(p, model.parameters) for p in reversed(side)]
         for side in (model.numerator, model.denominator)

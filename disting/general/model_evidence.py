@@ -191,8 +191,8 @@ def is_inequality(evidence: Inequality, left: AnyModel, right: AnyModel) -> bool
 
 
 def constants_finding(left: AnyModel, right: AnyModel) -> Finding:
-    """Transfer functions without parameters: unequal numbers, known exactly, tell the models
-    apart.
+    """Transfer functions without parameters: unequal numbers, known exactly, distinguish the
+    models.
     """
     values = [behaviour_of(model).constants(None) for model in (left, right)]
     differing = tuple(

@@ -190,7 +190,7 @@ def _model(entry: object, place: int, variable: str) -> AnyModel:
 
 
 def _refuse_name(name: str, what: str, most: int) -> None:
-    """Names stand in one line of tables and pages, and are typed on a command line."""
+    """Names are written in one line of tables and pages, and are typed on a command line."""
     if not name.strip() or name != name.strip() or not name.isprintable() or len(name) > most:
         raise InputError(
             f"{what} has 1 to {most} printable characters, with no spaces around them, not"

@@ -1,5 +1,5 @@
 """Inclusions of general models of unequal rank in the closure of each other: by missing elements of
-networks, or by degrees, ranks and free invariants. No fibre is looked at.
+networks, or by degrees, ranks and free invariants. No fibre is computed.
 
 Over complex parameters. The lemma of `decide.inclusion.profiles` speaks of any rational
 functions, the theorem of `network.minors` of networks.
@@ -87,7 +87,7 @@ def numberings(part: AnyModel, whole: AnyModel) -> Iterator[dict[int, int]]:
 
 
 def n_elements(network: Network | None) -> int | None:
-    """Number of elements of a network that are seen."""
+    """Number of elements of a network with an effect on the response."""
     return None if network is None else len(network.grounded.elements)
 
 

@@ -100,7 +100,7 @@ class NetworkView(View):
 
     @property
     def n_elements(self) -> int | None:
-        """Number of elements that are seen, if it is a network."""
+        """Number of elements with an effect on the response, if it is a network."""
         return n_elements(self.given.network)
 
     def rank_of_exponents(self) -> int:

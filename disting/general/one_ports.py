@@ -2,7 +2,7 @@
 Foster and Cauer.
 
 Let K(n, at_oo, at_0) be the set of all F(s) = [k_oo] + [k_0/s] + sum k_i/(s + a_i) of order n with
-positive k and positive distinct a_i, the terms in brackets present or not as told: the impedances
+positive k and positive distinct a_i, the terms in brackets present or not as stated: the impedances
 of RC one-ports with n capacitors.
 
 LEMMA. F in K(n, at_oo, at_0) exactly if H = 1/(s F) is of such a form with a constant where F has
@@ -23,9 +23,9 @@ s). Else H' is of the form of the lemma without constant, so F' = 1/(s H') has a
 step leads from K into K.
 
 A model whose coordinates in (1), (2) or (3) are fractions of its parameters, positive for all of
-them, and reach all positive values (see `sections`), gives exactly the F in K, those with equal
-a_i in (1) aside. Two such models with the same K give the same transfer functions. For RL
-one-ports F is G/s, for LC ones F(s^2) is G or G/s: one G for one F.
+them, and reach all positive values (see `sections`), gives exactly the F in K, except those with
+equal a_i in (1). Two such models with the same K give the same transfer functions. For RL one-ports
+F is G/s, for LC ones F(s^2) is G or G/s: one G for one F.
 """
 
 from collections.abc import Iterator

@@ -1,13 +1,12 @@
 """Polynomials in the parameters p of a given model and the unknowns q of a searched one, and the
-signs that are seen at once.
+signs that are obvious.
 
 Over positive numbers a polynomial whose coefficients all have one sign has this sign everywhere,
-and so has a x^2 + b x + c with a, c of one sign and 4 a c - b^2 > 0 everywhere.
-Over real numbers the same is said of one in which all exponents are even, coefficients have one
-sign and some term contains no unknown: it has this sign for all q and all p without zeros. Over
-complex numbers only constants have a sign, which then says that they are not zero. Polynomials in
-the p alone that are not zero vanish on no open set; they are passed over and listed by whoever
-rests on that.
+and so has a x^2 + b x + c with a, c of one sign and 4 a c - b^2 > 0 everywhere. Over real numbers
+the same holds for one in which all exponents are even, coefficients have one sign and some term
+contains no unknown: it has this sign for all q and all p without zeros. Over complex numbers only
+constants have a sign, which then means that they are nonzero. Polynomials in the p alone that are
+not zero vanish on no open set; they are passed over and listed by whoever rests on that.
 """
 
 from collections.abc import Iterable
@@ -27,8 +26,8 @@ QUADRATIC = 2
 SQUARES = 2  # discriminants of discriminants
 LARGEST = 10_000  # terms of a discriminant before like ones are collected
 Parts = tuple[int, tuple[fmpz_mpoly, ...]]
-"""A sign and distinct irreducible factors whose signs are not seen: their product has the sign
-of a polynomial, or is zero.
+"""A sign and distinct irreducible factors whose signs are not known: their product has the sign of
+a polynomial, or is zero.
 """
 
 
@@ -165,8 +164,8 @@ class Orthant:
         return [i for i in self.unknowns if any(d[i] for d in degrees)]
 
     def sign(self, polynomial: fmpz_mpoly) -> int:
-        """1 or -1 where it has this sign for all admissible values (see above), 0 where that is
-        not seen.
+        """1 or -1 where it has this sign for all admissible values (see above), 0 where that is not
+        found.
         """
         if self.domain is Domain.COMPLEX and not polynomial.is_constant():
             return 0

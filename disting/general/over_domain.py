@@ -99,14 +99,16 @@ def positive_question(
 def _question(
     left: NetworkSide, right: NetworkSide, domain: Domain
 ) -> tuple[Question[Finding], tuple[AnyModel, AnyModel]]:
-    """Of networks that a theorem shows to be the same only a map without exception tells more."""
+    """For networks that are equivalent by a theorem only a map without exception adds
+    information.
+    """
     told = _theorem(left, right, domain)
     question = ADMISSIBLY[domain] if told is None else PLAIN_MAPS
     return question, _unnamed(left, right)
 
 
 def _unnamed(left: NetworkSide, right: NetworkSide) -> tuple[AnyModel, AnyModel]:
-    """Both as they are asked about over real and positive parameters."""
+    """Both in the form in which they are decided over real and positive parameters."""
     return left.view.asked_about[0], right.view.asked_about[1]
 
 
@@ -127,7 +129,7 @@ def _is_asked(left: NetworkSide, right: NetworkSide, domain: Domain) -> bool:
 
 
 def refuse_unequal(left: NetworkSide, right: NetworkSide) -> Finding | None:
-    """Not asked of unequal ranks or degrees."""
+    """Not decided for unequal ranks or degrees."""
     mine, theirs = left.transfer_profile, right.transfer_profile
     if mine.rank == theirs.rank and mine.degrees == theirs.degrees:
         return None
@@ -141,7 +143,7 @@ def by_constants(left: NetworkSide, right: NetworkSide) -> Finding | None:
 
 
 def refuse_large(left: NetworkSide, right: NetworkSide) -> Finding | None:
-    """Not asked of functions that are too large to write down."""
+    """Not decided for functions that are too large to write down."""
     written = left.view.is_writable and right.view.is_writable
     return None if written else Finding(EXACT, Outcome.ABANDONED, note=TOO_MANY_TERMS)
 

@@ -66,7 +66,7 @@ class Powers:
         return 1 + self.halves
 
     def parts(self, power: int) -> tuple[int, ...]:
-        """The powers of s, or s^(1/2), and of every s^n that a power of v stands for."""
+        """The powers of s, or s^(1/2), and of every s^n that a power of v denotes."""
         left, numbers = power + self.lost, list[int]()
         for _, weight in reversed(self.weights):
             many, left = divmod(left, weight)

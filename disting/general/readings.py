@@ -1,10 +1,10 @@
 """In which order the exponents of a model are matched with those of another one.
 
 Two networks with constant phase elements are the same if their functions are, with exponents that
-are matched in some order. What occurs in a function, and what its profile tells, do not depend on
-the order in which its exponents are named; so each model takes the order in which these are the
-least, and all that these tell apart is apart in every order. Orders that are left are symmetries,
-most of them; of others the exact decision cannot tell that nothing matches.
+are matched in some order. What occurs in a function, and its profile, do not depend on the order in
+which its exponents are named; so each model takes the order in which these are the least, and
+models that these distinguish differ in every order. Orders that are left are symmetries, most of
+them; for others the exact decision cannot prove that nothing matches.
 """
 
 from collections.abc import Callable
@@ -28,7 +28,7 @@ def readings(model: AnyModel) -> list[AnyModel]:
 
 def normalise(model: AnyModel, profile_of: ProfileOf) -> AnyModel:
     """The model with its exponents in the order of the least profile, and of these in the one whose
-    coefficients are the least: that is a guess, of which `profile_text` says that it is one.
+    coefficients are the least: that is a guess, which `profile_text` states.
     """
     others = readings(model)
     if not others:

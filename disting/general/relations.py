@@ -33,7 +33,7 @@ def coefficients(model: Model) -> list[Terms]:
 @lru_cache(maxsize=REMEMBERED)
 def relations(left: Model, right: Model) -> tuple[Relation, ...]:
     """A basis of the quadratic forms that are zero at the coefficients of both, those left out that
-    are always zero; none are looked for between many coefficients.
+    are always zero; none are searched between many coefficients.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
@@ -66,7 +66,7 @@ def relations(left: Model, right: Model) -> tuple[Relation, ...]:
 @lru_cache(maxsize=REMEMBERED)
 def dimension_at_most(model: Model) -> int:
     """A bound of the dimension of its transfer functions: the number of ratios of coefficients less
-    that of independent equations between them, seen modulo a prime.
+    that of independent equations between them, computed modulo a prime.
 
     >>> dimension_at_most(Model.from_transfer_function(["1"], ["1", "a + b", "a*b"]))
     2

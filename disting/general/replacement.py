@@ -33,7 +33,7 @@ to 0 or oo: the limit is in U. A proper map between oriented manifolds of one di
 connected one, has a degree, the sum of signs over the values of any function at which all are
 regular, which is 0 if some function has none. The coefficients are coordinates of K up to a common
 factor of one sign, so that the determinant of them and their derivatives has the sign of the map
-everywhere, or everywhere its opposite. Networks that remain are looked at while their degree (the
+everywhere, or everywhere its opposite. Networks that remain are examined while their degree (the
 larger one of numerator and denominator) is that of N: those of smaller degree have no functions in
 K(m, c, z), m >= n, nor has what remains of them, as limits have no larger degree.
 """

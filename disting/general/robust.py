@@ -1,4 +1,4 @@
-"""A rational point of the given model that stands for an open set: all points near it have
+"""A rational point of the given model that represents an open set: all points near it have
 equivalents, or none of them has.
 
 HAVING. A section whose polynomials are positive at p, with no value, denominator or lead(q) zero
@@ -12,10 +12,9 @@ LACKING. No `generic` polynomial vanishes at p, so none does near p; every secti
 that is negative at p, so it is near p; and in all other cases no point of the closed box [0, oo]^n
 of the unknowns (or of the sum of two of them and their quotient) solves the equations with all
 inequalities >= 0, shown by boxes on each of which one polynomial has a sign, as it then has for all
-parameters near p. A p with an equivalent has a
-section with all polynomials >= 0 or a solution in one of these boxes (see `cases`, `sections`), so
-no p near the point has one. Over real numbers the boxes of all signs of the unknowns are looked
-at.
+parameters near p. A p with an equivalent has a section with all polynomials >= 0 or a solution in
+one of these boxes (see `cases`, `sections`), so no p near the point has one. Over real numbers the
+boxes of all signs of the unknowns are examined.
 
 Nothing is left to chance: the points may be drawn as one likes, and special ones are no danger.
 """
@@ -183,8 +182,8 @@ def _is_void(parted: CaseSearch, case: Case, point: ParameterValues) -> bool:
 
 
 def _box(case: Case, point: ParameterValues, free: tuple[int, ...], signs: tuple[int, ...]) -> Box:
-    """In the axes of both unknowns, or of their sum and quotient where no equation tells anything
-    of both being infinite.
+    """In the axes of both unknowns, or of their sum and quotient where no equation excludes that
+    both are infinite.
     """
     equations, positive = (
         tuple(_grid(g, point, free, signs) for g in side)

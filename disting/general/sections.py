@@ -4,16 +4,15 @@ p alone.
 In a case without equations an unknown x is eliminated where all inequalities are products of
 factors linear in it (Fourier and Motzkin). The signs of the factors of each product are tried in
 all ways; a x + b > 0 is x > -b/a or x < -b/a by the sign of a, tried in both ways unless it is
-seen. Then x exists exactly if some lower bound L (0 is one) is the largest, some upper bound U the
+known. Then x exists exactly if some lower bound L (0 is one) is the largest, some upper bound U the
 smallest and L < U, and each x = (L + w U)/(1 + w), w = 1, 2, .., will do, or x = L + w if there is
 no upper bound: the first w is taken at which no `nonzero` polynomial of the case and no a becomes
 0, as a polynomial does at finitely many w only. A factor of two inequalities gives one bound, not
 two: factors are irreducible and primitive, so equal bounds are those of one factor, but for its
 sign, and with both signs no x is between them. (Taken twice, a bound would have to be larger than
 itself.) A solution of strict inequalities stays one if the unknowns move a little, so those at
-which bounds are equal or a factor a is zero may be left out, unless a contains the p alone: then
-it is listed as not zero. What is found is a list of sections q = q(p), each with polynomials
-`where`:
+which bounds are equal or a factor a is zero may be left out, unless a contains the p alone: then it
+is listed as not zero. What is found is a list of sections q = q(p), each with polynomials `where`:
 
 * where all of them are positive (and no value q_j(p) or lead(q(p)) zero), q(p) is an equivalent of
   p;

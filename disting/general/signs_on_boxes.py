@@ -1,4 +1,4 @@
-"""Polynomials on closed boxes of [0, oo]^n, n = 1 or 2: boxes where inequalities are seen to fail
+"""Polynomials on closed boxes of [0, oo]^n, n = 1 or 2: boxes where inequalities are found to fail
 or to hold, and roots.
 
 A polynomial f of degree at most d in x is taken as homogeneous, x = x0/x1, so that x = oo is a
@@ -6,7 +6,7 @@ point like others, and a box is the image of [0, oo]. If all coefficients are >=
 corners > 0, f is positive on the whole closed box; the same for negative. Halving: x = u/(1 + u)
 is the part up to 1, x = 1 + u the part from 1.
 
-What is said of one polynomial on a closed box stays true if its coefficients move a little, as the
+A statement on one polynomial on a closed box stays true if its coefficients move a little, as the
 box is compact.
 """
 

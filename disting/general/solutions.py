@@ -3,9 +3,9 @@ parameters: their number, the exchanges among them, and the parameters that have
 
 CASES. All vectors over complex parameters are written as fractions of the parameters p, or by the
 roots x of one irreducible polynomial h over the field of fractions of the p (see `vectors`). A
-vector of fractions is real for all real p. It is positive where the fractions are: for all
-positive p if their factors have one sign each, for none if one fraction is seen to be negative, for
-some otherwise. Of the vectors of h so many are admissible as h has real roots, or positive roots at
+vector of fractions is real for all real p. It is positive where the fractions are: for all positive
+p if their factors have one sign each, for none if one fraction is found to be negative, for some
+otherwise. Of the vectors of h so many are admissible as h has real roots, or positive roots at
 which all fractions are positive; `counts` may show this number to be the same for all p. Where the
 equations cannot be solved over complex parameters, they may be over positive ones, where more
 factors have one sign.
@@ -66,7 +66,7 @@ Point = dict[int, int]
 @dataclass(frozen=True, slots=True)
 class _Branch:
     """A vector, or those of all roots of its equation: from `least` to `most` of them admissible,
-    where all products that are `asked` to be are positive.
+    where all `asked` products are positive.
     """
 
     vector: Vector

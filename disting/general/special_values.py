@@ -7,13 +7,13 @@ d. A factor of it with terms of one sign has no positive zero. A factor that is 
 its parameters x, with A and B sums of positive terms without x, has one, x = B/A, whatever
 the other values.
 
-Of how it comes to that the discriminants tell: where a factor divides that of d, two poles fall
-together, and one of them cancels; where it divides that of n, two zeros do. As functions nothing is
-left of either; whoever compares numerators and denominators as they stand, with the common factor
-in them, sees a double pole or a double zero.
+The discriminants show how this happens: where a factor divides that of d, two poles fall together,
+and one of them cancels; where it divides that of n, two zeros do. As functions nothing remains of
+either; a comparison of the unreduced numerators and denominators, with the common factor, shows a
+double pole or a double zero.
 
-`special_values` says of two networks which of them gives all that the other one gives, special
-values included (`disting.network.normal_form`).
+`special_values` decides which of two networks gives all that the other one gives, special values
+included (`disting.network.normal_form`).
 """
 
 from collections.abc import Iterable

@@ -4,8 +4,8 @@ Foster's sums and Cauer's continued fractions, whatever its branches are.
 Let F(x) be of K(n, c, z) (see `disting.network.normal_form`): a constant if c, k_0/x if z, and n
 terms k_i/(x + a_i). In series F is the sum over the branches: the constant and k_0/x go to the
 branch that has one, the terms are shared by their numbers; with one branch of terms that needs no
-roots, with more of them the denominator is a product of as many polynomials. Of a branch in
-parallel 1/(x F) is looked at likewise, with both kinds exchanged. Every share is what a branch can
+roots, with more of them the denominator is a product of as many polynomials. For a branch in
+parallel 1/(x F) is treated likewise, with both kinds exchanged. Every share is what a branch can
 be, and is positive for positive values (the theorem there). So all values are fractions where the
 denominators have the factors that are needed; one of degree 2 gives its roots by a square root.
 """
@@ -140,7 +140,7 @@ def _chosen(field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share]) -
 
 
 def _inverse(field: Arithmetic, top: Poly, bottom: Poly) -> tuple[Poly, Poly]:
-    """1/(x F); a pole of F at 0 is seen by its first coefficient."""
+    """1/(x F); a pole of F at 0 is found by its first coefficient."""
     if field.is_zero(bottom[0]):
         return bottom[1:], top
     return bottom, (field.zero, *top)

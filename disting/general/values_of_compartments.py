@@ -37,7 +37,7 @@ class Subtree:
 
     @property
     def shape(self) -> tuple[object, ...]:
-        """None is like another one: where the outflow is tells them apart."""
+        """No two are alike: the place of the outflow distinguishes them."""
         return (self.node,)
 
 

@@ -4,7 +4,7 @@ each with its proof.
 ALWAYS: sections cover all generic p, or a path gives a root for every p (`sections`,
 `intermediate_value`), or as many roots for all p as for one (`counts`). NEVER: no case is left
 (`cases`), or none that has a root. Points with and without equivalents in open sets around them are
-looked for with `robust`.
+searched with `robust`.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -62,12 +62,12 @@ class Way:
 
     @property
     def looked_at(self) -> int:
-        """In how many cases of the search equivalents of a point are looked for."""
+        """Number of cases of the search in which equivalents of a point are searched."""
         return searched_cases(self.parted)
 
     @property
     def not_looked_at(self) -> str:
-        """Why an equivalent of a point may be missed, or "" if it is looked for in all cases."""
+        """Why an equivalent of a point may be missed, or "" if all cases are searched."""
         cases = len(self.parted.sections) + len(self.parted.others)
         return (
             ""
@@ -76,7 +76,7 @@ class Way:
         )
 
     def having(self, values: Values) -> tuple[float, ...] | None:
-        """An equivalent (rounded) of a point around which all have some, as far as is seen."""
+        """An equivalent (rounded) of a point around which all have some, as far as found."""
         self.parted.search.ring.begin()
         try:
             return find_equivalent(self.parted, self._point(values))
@@ -187,10 +187,10 @@ def _parted(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, .
 
 
 def _covering(parted: CaseSearch) -> tuple[Section, ...]:
-    """Sections that cover all generic p, none if these do not or a polynomial is too large to tell.
+    """Sections that cover all generic p, none if these do not or a polynomial is too large.
 
     At a section lead(q) and, over positive numbers, the values are not zero for generic p (see
-    `cases`); it is looked at once more.
+    `cases`); it is checked once more.
     """
     ring = parted.search.ring
     ring.begin()

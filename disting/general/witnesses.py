@@ -1,7 +1,7 @@
 """Points of two models that show what is true of them around those points: one with an equivalent
 in the other model, and one without.
 
-Points are drawn to be looked at only; what is said of them is said of all points around them (see
+Points are drawn as examples only; every statement on them is one on all points around them (see
 `robust`). Lists of all equivalents of a point cost milliseconds, where they end; inequalities
 between coefficients (see `inequalities`) less; searches in rounded numbers find equivalents.
 """

@@ -31,8 +31,8 @@ class Assumption:
 
 
 def assumed_quantity(measured: FrequencyResponse) -> Quantity | None:
-    """The quantity that the sensor, or the recorded output, is taken to show; None where somebody
-    said it.
+    """The quantity that the sensor, or the recorded output, is assumed to show; None where it was
+    given.
     """
     return next((quantity for note, quantity in ASSUMED.items() if note in measured.notes), None)
 
@@ -63,8 +63,8 @@ def assumed_open_loop(response: FrequencyResponse) -> Assumption | None:
 
 
 def shows_impedance(columns: Sequence[ReadColumn], response: FrequencyResponse | None) -> bool:
-    """Return True for a voltage per current: as the response says, or, of one that is refused, the
-    unit of a column that is used.
+    """Return True for a voltage per current: according to the response or, for a refused one, the
+    unit of a used column.
     """
     if response is not None:
         return response.is_impedance

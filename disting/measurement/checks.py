@@ -101,7 +101,7 @@ def drives(drive: Real | None) -> None:
 
 
 def reversed_sensor(omega: Real, response: Complex, missing: int) -> str | None:
-    """Sentence if the response looks like that of a free mass seen with the wrong sign.
+    """Sentence if the response looks like that of a free mass measured with the wrong sign.
 
     `missing` = differentiations that make `response` an acceleration per force, a/F. A free mass
     has a/F = 1/m: phase 0, slope
@@ -123,8 +123,8 @@ def reversed_sensor(omega: Real, response: Complex, missing: int) -> str | None:
 
 
 def phase_unit(phase: Real, unit: str, said: bool) -> str | None:
-    """Sentence if a phase column cannot well be in its unit, "deg" or "rad"; `said` = the file
-    or the caller named the unit.
+    """Sentence if a phase column can hardly be in its unit, "deg" or "rad"; `said` = the file or
+    the caller named the unit.
     """
     largest = float(np.max(np.abs(phase), initial=0.0))
     if unit == "rad" and largest > LARGEST_RADIAN:

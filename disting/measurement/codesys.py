@@ -10,8 +10,8 @@
     1.Variable; PLC_PRG.lrSpeed
     ..
 
-Each variable has its own times. `Flags` tells their unit: bit 5 stands for microseconds, bit 4 for
-milliseconds; where it tells none or both, the sampling rate has to be given. A sample is taken in
+Each variable has its own times. `Flags` gives their unit: bit 5 for microseconds, bit 4 for
+milliseconds; where none or both are set, the sampling rate has to be given. A sample is taken in
 each cycle of a task, so that the times vary by the jitter of the control: they are equidistant as
 cycles are, and a cycle without a sample is a gap. A buffer may begin or end a few samples earlier
 for one variable than for another: what all of them have is read. Nothing is resampled.
@@ -161,7 +161,7 @@ def _cycles(times: Real, name: str, origin: str) -> tuple[Real, float]:
 
 
 def _unit(flags: str) -> str:
-    """The unit of the times, as `Flags` tells it; a word that is no unit where it does not."""
+    """The unit of the times, from `Flags`; a word that is not a unit where it is missing."""
     number = int(flags) if flags.isdecimal() else 0
     told = [unit for bit, unit in UNITS.items() if number & bit]
     return told[0] if len(told) == 1 else "unit not in Flags"

@@ -1,7 +1,7 @@
 """Meaning of a column: its role from the words of its header, its unit from the same header.
 
-A unit stands in brackets behind the name, behind a stroke, a comma or "in", or is the last word:
-`f [Hz]`, `Gain (dB)`, `phi/°`, `Frequency in Hz`, `Freq_Hz`, `MagdB`.
+A unit is in brackets after the name, after a stroke, a comma or "in", or is the last word: `f
+[Hz]`, `Gain (dB)`, `phi/°`, `Frequency in Hz`, `Freq_Hz`, `MagdB`.
 """
 
 import re

@@ -129,8 +129,8 @@ def _refuse_spectra(table: Table, columns: Sequence[Column]) -> None:
 def choose(
     table: Table, columns: list[Column], the_groups: Sequence[Group], asked: str | int | None
 ) -> Group:
-    """The first response, or that of the column asked for; one that belongs to none is taken as
-    a gain, with the phase behind it.
+    """The first response, or that of the requested column; one that belongs to none is read as a
+    gain, followed by the phase.
     """
     if asked is None:
         return the_groups[0]
@@ -275,7 +275,7 @@ def _gains(columns: Sequence[Column]) -> list[tuple[int, int]]:
 
 
 def level_of(column: Column) -> str:
-    """The level of a gain's unit, "1" where it says none."""
+    """The level of a gain's unit, "1" where it states none."""
     the_gain = gain(column.unit)
     return the_gain.level if the_gain else "1"
 
@@ -293,7 +293,7 @@ def stated_quantities(table: Table) -> list[Quantity]:
 def quantity_of(
     table: Table, quantity: Quantity | str | None, unit: str, notes: list[str]
 ) -> Quantity:
-    """The quantity that is asked for, or that words or the unit of the output say."""
+    """The requested quantity, or that of the words or the unit of the output."""
     if quantity is not None:
         return as_quantity(quantity)
     sensors = stated_quantities(table)

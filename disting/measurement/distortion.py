@@ -14,7 +14,7 @@ compare with |G|: Y - G U is the output without what the input, distorted itself
 Standard deviation of stochastic nonlinear contributions at the excited lines of a response.
 
 A periodic input with random phases makes a nonlinear machine show its best linear approximation
-and, beside it, contributions that repeat from period to period and look like noise from line to
+and, in addition, contributions that repeat from period to period and look like noise from line to
 line (Pintelon and Schoukens, System Identification, 2nd ed. 2012, chapters 3 and 4). Their variance
 adds to that of the noise: with sigma_n^2 the variance of the mean by noise,
 

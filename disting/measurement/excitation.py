@@ -7,11 +7,10 @@ variance of ln f weighted by P_i are m_i and v_i. Of the whole variance
     V = mean_i v_i + var_i m_i        (means over pieces, weighted by their power)
 
 a sweep has nearly all in var_i m_i, since each piece is narrow; a multisine or noise has hardly
-anything there. Above the share `MOVING` the input counts as a sweep. A multisine may have
-phases that make it move like a sweep (M. Schroeder, Synthesis of low-peak-factor signals, 1970).
-Its
-lines have clear edges: the weakest of them is `CLEAR` times as large as the strongest line beside
-them, whereas the spectrum of a sweep fades out.
+anything there. Above the share `MOVING` the input counts as a sweep. A multisine may have phases
+that make it move like a sweep (M. Schroeder, Synthesis of low-peak-factor signals, 1970). Its lines
+have clear edges: the weakest of them is `CLEAR` times as large as the strongest line next to them,
+whereas the spectrum of a sweep fades out.
 
 "random" is the rest: neither periodic nor a sweep.
 """
@@ -58,7 +57,7 @@ class InputBand:
 
 def excitation(u: Real, rate: float, period: int | None = None) -> InputBand:
     """Return what the input of a record, shape (n,) at `rate` [Hz], excites; `period` [samples]
-    where it is known, else it is looked for.
+    where it is known, else it is searched.
 
     >>> t = np.arange(4000) / 1000
     >>> found = excitation(sum(np.sin(2 * np.pi * f * t + f * f) for f in range(5, 50)), 1000.0)

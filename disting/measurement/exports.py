@@ -3,12 +3,12 @@ channels, then the samples.
 
 TwinCAT Scope (CSV, TXT) has a line for each property, such as Name, SampleTime[ms] and Unit. A
 column that repeats the name of the property in each of these lines is the time [ms] of the channels
-behind it, up to the next such column. Channels of several sample times stand beside each other,
-sample by sample and whatever their times: those of the sample time that most of them have are read,
-and the others are named.
+behind it, up to the next such column. Channels of several sample times are in adjacent columns,
+sample by sample for any times: those of the sample time that most of them have are read, and the
+others are named.
 
 LabVIEW (LVM) has two headers, the second one with Delta_X, the step of the time [s], and
-Y_Unit_Label of each channel. Columns of times, X_Value, may be missing; comments stand last.
+Y_Unit_Label of each channel. Columns of times, X_Value, may be missing; comments are last.
 """
 
 import re

@@ -4,8 +4,8 @@ A controller C turns noise v of the output into input: with S = 1/(1 + C G) the 
 
     U = -C S v + S w,    Y = S v + G S w,
 
-where w acts beside the controller and is recorded. The noise of w moves input and output in the
-ratio G, as the excitation does, and biases nothing. That of v moves them in the ratio -1/C.
+where w acts in addition to the controller and is recorded. The noise of w moves input and output in
+the ratio G, as the excitation does, and biases nothing. That of v moves them in the ratio -1/C.
 
 Periodic excitation. Around their means over P periods, the spectra of the input and of the changes
 of the output (a position that wanders would leak into all lines), these divided by their ratio,

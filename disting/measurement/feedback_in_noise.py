@@ -15,11 +15,11 @@ loop gives
 which is subtracted. Each of `BLOCKS` parts of the record has its own h, a and r. The mean of the
 remainder over the blocks, divided by its standard error, is t distributed in open loop, so that
 changing noise and the instantaneous frequency of a sweep raise the error and not the statistic.
-Outlying blocks are moved to `OUTLYING` robust deviations from the median. A loop that is
-slow beside the sampling shows in sums over `RUNS` lags. The largest of all values exceeds its
-critical value with probability `LEVEL` in open loop (Bonferroni). A smooth input that is
-recorded less often than it changes moves the output before it shows: where a smooth input is
-correlated by less than `WEAK`, the evidence says so.
+Outlying blocks are moved to `OUTLYING` robust deviations from the median. A loop that is slow
+compared with the sampling shows in sums over `RUNS` lags. The largest of all values exceeds its
+critical value with probability `LEVEL` in open loop (Bonferroni). A smooth input that is recorded
+less often than it changes moves the output before it is recorded: where a smooth input is
+correlated by less than `WEAK`, the evidence states it.
 
 **Bias.** A vector autoregressive model of input and output (block Yule-Walker equations, order
 `ORDER`) has innovations e_u, e_y and transfer functions H from them. The noise e_y moves input and
@@ -134,7 +134,7 @@ def loop_in_noise(u: Real, y: Real, order: int) -> NoiseLoop | None:
 
 def _noise(u: Real, y: Real) -> tuple[Real, Real]:
     """Return input and output without what repeats with the input: a sum of sines cannot be
-    whitened. All of it where too few periods leave no noise to see.
+    whitened. All of it where too few periods leave no measurable noise.
     """
     try:
         period = detected_period(u)

@@ -91,8 +91,8 @@ def _line(text: str) -> str:
 
 @renamed(sensor="quantity")
 def read(path: str | Path, **options: Unpack[ReadOptions]) -> FrequencyResponse:
-    """Frequency response from a file; `suspicions` and `notes` of the result say what should be
-    looked at.
+    """Frequency response from a file; `suspicions` and `notes` of the result state what should be
+    checked.
 
     - text (CSV and the like): `column`, `columns`, `quantity`, `sign`, `phase_unit`,
       `frequency_unit`, `magnitude_unit` (`tabular.frequency_response`);
@@ -103,7 +103,7 @@ def read(path: str | Path, **options: Unpack[ReadOptions]) -> FrequencyResponse:
     - universal file `.uff`, `.unv`: `record`, `quantity`, `sign` (`uff.read_uff`).
 
     With `input` and `output` the file is read as a time series (`read_time_series`), likewise a
-    file of a clock without frequencies, whose input and output are then told by their names. Its
+    file of a clock without frequencies, whose input and output are then found by their names. Its
     options and those of `TimeSeries.response` (`period`, `transient`, `lines`, `band`, `segment`,
     `least_coherence`, `trend`) are then accepted; `quantity` is that of the recorded output, `to`
     the one wanted. `hold`, of every file: the time for which a digital drive holds its input [s]
@@ -153,8 +153,8 @@ def read_time_series(
     file.
 
     Options: `sampling_rate` [Hz] (in a MATLAB file also a name) or `time` (column or variable [s]);
-    `quantity` of the output, default position; `sign`; `reference` = the signal that a
-    controller was asked for, of a record in closed loop. Raises InputError, with the remedy, for a
+    `quantity` of the output, default position; `sign`; `reference` = the signal that was the
+    command of a controller, of a record in closed loop. Raises InputError, with the remedy, for a
     file that is not there or not read, and for signals that it does not hold.
 
     >>> from tempfile import TemporaryDirectory
@@ -177,8 +177,8 @@ def _records(file: Source, file_format: Format) -> Records:
 
 
 def _signals(file: Source, records: Records, entry: Options) -> tuple[Options, tuple[str, ...]]:
-    """Input and output, guessed by their names where neither is given, and the note that says
-    so.
+    """Input and output, guessed by their names where neither is given, and the note that states
+    it.
     """
     if {"input", "output"} <= entry.keys():
         return entry, ()
@@ -259,7 +259,7 @@ CLOCKS = {"t", "time", "zeit", "timestamp"}
 
 
 def guess(names: Iterable[str], origin: str) -> tuple[str, str, str]:
-    """Names of input and output, and a note that says so; raises InputError listing the names
+    """Names of input and output, and a note that states it; raises InputError listing the names
     where more or fewer fit.
 
     >>> guess(["t", "iq [A]", "iq_ref", "theta"], "a.csv")[:2]

@@ -108,7 +108,7 @@ def _is_matlab(file: Source, head: bytes) -> bool:
 
 
 def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
-    """A response object where one is asked for, or where no variables make up a response; else
+    """A response object where one is requested, or where no variables make up a response; else
     variables.
     """
     from disting.measurement.matlab import chosen_response, from_object

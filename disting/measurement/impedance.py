@@ -63,8 +63,8 @@ def read_impedance(file: Source) -> FrequencyResponse:
 
 
 def as_impedance(measured: FrequencyResponse) -> FrequencyResponse:
-    """A response that was read as that of a machine, as an impedance: -Im is turned where it is
-    seen to be that, and the file does not say what it is.
+    """A response that was read as that of a machine, as an impedance: -Im is turned where the data
+    show that, and the file does not define it.
     """
     turned = measured.output != VOLTAGE and np.mean(measured.G.imag > 0) > MOSTLY
     notes = tuple(note for note in measured.notes if "sensor quantity" not in note)

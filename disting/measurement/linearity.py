@@ -22,8 +22,8 @@ APART = 1.1  # ratio of levels from which on two measurements have different amp
 
 
 def describe_nonlinearity(response: FrequencyResponse) -> str:
-    """Sentence on the distortion that a response shows beside its noise, both as medians of the
-    lines in parts of |G|; "" where it shows none that could move a value beyond its interval.
+    """Sentence on the distortion that a response shows in addition to its noise, both as medians of
+    the lines in parts of |G|; "" where it shows none that could move a value beyond its interval.
 
     >>> from dataclasses import replace
     >>> from disting.measurement import from_arrays

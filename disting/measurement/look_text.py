@@ -41,7 +41,7 @@ def look_lines(seen: "Look", width: int = WIDTH) -> Iterator[str]:
 
 def short_lines(response: FrequencyResponse, shows: str = "") -> Iterator[str]:
     """Return two to four lines on a response: its file, columns, quantity and lines, assumptions.
-    `shows`: its quantity, where the sensor does not tell it, such as an impedance.
+    `shows`: its quantity, where the sensor does not give it, such as an impedance.
 
     >>> from disting.measurement import from_arrays
     >>> print(*short_lines(from_arrays(range(1, 9), [1j] * 8)), sep="\\n")

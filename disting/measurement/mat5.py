@@ -37,8 +37,8 @@ Bytes = bytes | memoryview
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A matrix of a file, not yet read: name, class, the size [bytes] that its header says,
-    numbers taken as those of eight bytes; its bytes, whether they are compressed, their order.
+    """A matrix of a file, not yet read: name, class, the size [bytes] in its header, numbers taken
+    as those of eight bytes; its bytes, whether they are compressed, their order.
     """
 
     name: str
@@ -78,14 +78,14 @@ def matrices(content: Bytes, order: str, start: int, take: Take) -> Iterator[Byt
 
 
 def unpack(body: Bytes, order: str) -> bytes:
-    """A compressed element, as many bytes as its header says at most."""
+    """A compressed element, at most as many bytes as stated in its header."""
     packer = zlib.decompressobj()
     head = packer.decompress(body, HEAD)
     return head + packer.decompress(packer.unconsumed_tail, max(_said(head, order) - len(head), 1))
 
 
 def _said(element: bytes, order: str) -> int:
-    """Size of an element with its header, as this says."""
+    """Size of an element with its header, as the header states."""
     return 8 + int(struct.unpack_from(order + "I", element, 4)[0])
 
 
@@ -154,7 +154,7 @@ def elements(matrix: Bytes, order: str) -> Iterator[tuple[int, Bytes]]:
 
 
 def flags(matrix: Bytes, order: str) -> int:
-    """Class of a matrix, in the lowest byte, and what it is besides."""
+    """Class of a matrix, in the lowest byte, and its flags."""
     return int(_parts(matrix, order, 1)[0][0])
 
 

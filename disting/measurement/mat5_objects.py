@@ -2,16 +2,16 @@
 in them.
 
 An object (`frd`, `idfrd`) is a matrix of class 17 that holds whole numbers only: 0xDD000000, the
-number of dimensions, those, the numbers of its objects, and that of its class. What it holds
-stands in the subsystem at the end of the file, to which bytes 116 to 123 of the header lead:
-numbers of eight bits that are a file themselves, in it a struct with a field MCOS, in this an
-object that is a cell array. Its first cell has the tables, of whole numbers of 32 bits: version,
-count of names, where eight tables begin; the names, each ended by a zero byte; then, by these
-beginnings, classes (0), properties by what the class's saveobj gave (1), objects (2: six numbers
-each, the 4th and 5th say which entry of 1 or of 3), properties (3). A property is name, kind and
-value: a cell (kind 1), counted from the third one, or else a name or a small number, which no
-response needs. MathWorks does not publish this; it is what files show. Objects of older versions
-(class 3) are stored like structs.
+number of dimensions, those, the numbers of its objects, and that of its class. Its content is in
+the subsystem at the end of the file, to which bytes 116 to 123 of the header lead: numbers of eight
+bits that are a file themselves, in it a struct with a field MCOS, in this an object that is a cell
+array. Its first cell has the tables, of whole numbers of 32 bits: version, count of names, where
+eight tables begin; the names, each ended by a zero byte; then, by these beginnings, classes (0),
+properties by what the class's saveobj gave (1), objects (2: six numbers each, the 4th and 5th give
+the entry of 1 or of 3), properties (3). A property is name, kind and value: a cell (kind 1),
+counted from the third one, or else a name or a small number, which no response needs. MathWorks
+does not publish this; it is what files show. Objects of older versions (class 3) are stored like
+structs.
 """
 
 import struct

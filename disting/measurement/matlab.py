@@ -2,9 +2,9 @@
 
 Arrays in an HDF5 file, such as MATLAB writes as version 7.3, with bounds that h5py has not.
 
-A file of two kilobytes may say that it holds gigabytes: of fill values that were never written, in
-chunks larger than the array, or in one chunk that inflates to any size, whatever is said of it. So
-the sizes of array and chunks are read from the headers, and chunks are inflated once, piece by
+A file of two kilobytes may claim to hold gigabytes: of fill values that were never written, in
+chunks larger than the array, or in one chunk that inflates to any size, whatever its header states.
+So the sizes of array and chunks are read from the headers, and chunks are inflated once, piece by
 piece, before the library does it. This needs to know how they are packed: shuffled, deflated, with
 a checksum, in this order, as MATLAB and h5py do it.
 
@@ -143,7 +143,7 @@ def from_object(
 
 
 def chosen_response(stored: Mapping[str, ResponseObject], asked: str | None, origin: str) -> str:
-    """The name asked for, or the only one; raises InputError listing them."""
+    """The requested name, or the only one; raises InputError listing them."""
     names = list(stored)
     found = matching(names, asked) if asked else []
     if len(found) == 1:
@@ -161,9 +161,7 @@ def chosen_response(stored: Mapping[str, ResponseObject], asked: str | None, ori
 
 
 def _within(name: str, value: Any, subsystem: Objects | None) -> dict[str, ResponseObject]:
-    """Responses in a variable and in the fields of structs; objects in objects are not looked
-    for.
-    """
+    """Responses in a variable and in the fields of structs; objects in objects are not searched."""
     held = _properties(value, subsystem) if isinstance(value, Reference) else value
     stored_response = _response(held) if isinstance(held, dict) else None
     if stored_response is not None:
@@ -215,7 +213,7 @@ def _response(held: Mapping[str, Any]) -> ResponseObject | None:
 
 
 def _in_seconds(unit: str, time: Any) -> str:
-    """Name of a unit of frequency; that of time is the second unless said otherwise."""
+    """Name of a unit of frequency; that of time is the second unless stated otherwise."""
     if isinstance(time, str) and time not in ("", "seconds"):
         return f"{unit} with time in {time}"
     return {"rad/TimeUnit": "rad/s", "cycles/TimeUnit": "Hz"}.get(unit, unit)

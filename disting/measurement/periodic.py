@@ -21,9 +21,9 @@ Whether the first of two periods holds a transient.
 What repeats is not in the difference of two periods: noise of both is, and a transient, which
 decays. The difference is cut into parts, each under a Hann window, as it may jump at its ends, and
 the power of each octave in the first part is compared with that in the second half. Noise has the
-same power everywhere, a transient most at first. One that is too small to be seen is covered by the
-scatter: it shifts the mean of both periods by half of its spectrum, which is the standard deviation
-that two periods show at that line.
+same power everywhere, a transient most at first. One that is too small to be detected is covered by
+the scatter: it shifts the mean of both periods by half of its spectrum, which is the standard
+deviation that two periods show at that line.
 
 The ratio of both powers of noise has the F distribution with nu and PARTS / 2 nu degrees of
 freedom. Noise of the spectrum P has nu = 2 / 1.5 (sum P)^2 / sum P^2 in a part (Welch and

@@ -13,8 +13,8 @@ with mean 1. Few measurements know their variance badly: s_i^2 is not taken belo
 `BESIDE` lines on each side, and n - 2 not below half of their number. A line of a measurement is
 named where p times the number of all of them is below `LEVEL`, which is far out, since machines
 repeat themselves less well than noise does; a whole measurement where its lines are that unlikely
-on average and `ALONE` times as unlikely as those of any other. Two measurements do not tell which
-of them is the other one.
+on average and `ALONE` times as unlikely as those of any other. Two measurements do not show which
+of them is the outlier.
 """
 
 from collections.abc import Sequence

@@ -115,8 +115,8 @@ class FrequencyResponse(NotebookTable):
     understood; `method` = how it was estimated from a record in time, or None; `loop` = the closed
     loop that the record shows, or None; `nonlinear` = the part of `deviation` that a nonlinear
     machine makes itself, shape (n_f,), or None where none is measured (module `nonlinear`).
-    Frequencies out of order are sorted, with a note. Raises
-    InputError for what is no frequency response (module `checks`).
+    Frequencies out of order are sorted, with a note. Raises InputError for what is no frequency
+    response (module `checks`).
 
     >>> import numpy as np
     >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))
@@ -298,8 +298,8 @@ class FrequencyResponse(NotebookTable):
         return self.subset(inside)
 
     def thinned(self, count: int) -> "FrequencyResponse":
-        """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale;
-        all if there are fewer. `reading` says so.
+        """`count` lines, as near as can be to frequencies spaced evenly on a logarithmic scale; all
+        if there are fewer. `reading` states it.
         """
         if count < checks.FEWEST:
             raise InputError(f"at least {checks.FEWEST} lines are kept, not {count}")
@@ -311,7 +311,7 @@ class FrequencyResponse(NotebookTable):
 
     @renamed(sensor="quantity")
     def to_quantity(self, quantity: Quantity | str) -> "FrequencyResponse":
-        """The same motion as seen by another sensor: G (j omega)^n and deviation omega^n, n =
+        """The same motion as measured by another sensor: G (j omega)^n and deviation omega^n, n =
         difference of the orders.
 
         Raises InputError where the unit of the output is that of another quantity than it was read
@@ -357,7 +357,7 @@ class FrequencyResponse(NotebookTable):
 
     def held(self, period: float | str, order: int = 0) -> "FrequencyResponse":
         """The same lines as a digital drive shows them that holds its input for `period` [s] and
-        samples a motion of this `order` (0: position); `reading` says so. Raises InputError.
+        samples a motion of this `order` (0: position); `reading` states it. Raises InputError.
 
         >>> import numpy as np
         >>> mass = FrequencyResponse(np.linspace(10.0, 100.0, 10), np.full(10, 0.5 + 0j))

@@ -1,6 +1,6 @@
 """A measured response in SI units, so that results are in kg m2 or kg, Nm/rad or N/m.
 
-The unit of a grid of frequencies: what a file or a caller says, held against the numbers
+The unit of a grid of frequencies: the unit stated by a file or a caller, compared with the numbers
 themselves.
 
 Who measures a response chooses round frequencies in the unit in which he thinks: 0.1, 0.2, .. 1000
@@ -74,7 +74,7 @@ def factor(unit: str) -> float:
 
 
 def taken_unit(omega: Real, values: Real, said: str = "") -> str:
-    """The unit in which frequencies were read: the one that was `said`, where it is that."""
+    """The unit in which frequencies were read: the one that was `said`, where it is known."""
     value = float(omega[0] / values[0]) if values[0] else 0.0
     alike = [name for name, own in FREQUENCIES.items() if np.isclose(own, value, rtol=1e-9)]
     return said if known_unit(said, alike) or not alike else alike[0]
@@ -102,8 +102,8 @@ def in_si(
     """The response in SI units where the units of its signals are known; `output`, `input` = units
     in their place.
 
-    The order of a unit (rad/s is a velocity) is that of the sensor where nobody said the sensor's
-    quantity. Raises InputError for a unit that is given and not known, and for one that
+    The order of a unit (rad/s is a velocity) is that of the sensor where the sensor's quantity is
+    not given. Raises InputError for a unit that is given and not known, and for one that
     contradicts the quantity.
 
     >>> from disting.measurement import from_arrays

@@ -4,9 +4,9 @@
       <dataSignal id="f1" name=".." interval="0.002"/>
       <rec time="0" f1="1.5" f2="0"/><rec time="0.002" f2="1"/> ..
 
-A record leaves out what has not changed: the value before holds. The unit of a signal is told by a
-name of the control's own, which says no unit: none is read. Signals of the interval that most of
-them have are read, and the others are named.
+A record leaves out what has not changed: the value before holds. The unit of a signal has a name of
+the control's own, which implies no unit: none is read. Signals of the interval that most of them
+have are read, and the others are named.
 """
 
 from collections import Counter

@@ -44,8 +44,8 @@ class Allowance:
     took: dict[str, int] = field(default_factory=dict)
 
     def take(self, name: str, size: int) -> None:
-        """Count the bytes that a header says; raises InputError before they are unpacked where
-        they are too many.
+        """Count the bytes stated in a header; raises InputError before they are unpacked where they
+        are too many.
         """
         self.took[name] = size
         if sum(self.took.values()) > LARGEST:

@@ -21,9 +21,9 @@ from disting.model.chain import Quantity
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Table:
-    """Columns of numbers, shape (rows, columns), their headers ("" without one), the line
-    number of each row, the comments; `transposed`: the file has a line for each column; `left_out`
-    says which other columns the file has, "" for none.
+    """Columns of numbers, shape (rows, columns), their headers ("" without one), the line number of
+    each row, the comments; `transposed`: the file has a line for each column; `left_out` lists
+    which other columns the file has, "" for none.
     """
 
     headers: tuple[str, ...]
@@ -94,8 +94,7 @@ def time_series(
     """Samples of the columns `input` and `output` (header, or number from 1) at `sampling_rate`
     [Hz] or column `time` [s].
 
-    `reference` = the column of what a controller was asked for, where the record is of a closed
-    loop.
+    `reference` = the column of the command of a controller, where the record is of a closed loop.
     """
     uses: dict[int, Use] = {}
     if sampling_rate is None:

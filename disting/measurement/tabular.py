@@ -87,9 +87,9 @@ def frequency_response(
     `columns` = what every column is ("re", "im", "magnitude", "phase", "coherence", "std", "-" for
     none, or a unit of frequency, gain or phase) instead of its header; `quantity`, `phase_unit`
     ("deg", "rad", "gon", ..), `frequency_unit` ("Hz", "rad/s", ..), `magnitude_unit` ("dB", "%",
-    "Np", "1") where the file does not say them, or says them wrongly; `sign` = -1 for a reversed
-    sensor; `outliers` as in `mean_of`. Raises InputError where columns are missing, with the
-    table's first rows as `detail`, and for a stated unit that is not known.
+    "Np", "1") where the file does not state them, or states them wrongly; `sign` = -1 for a
+    reversed sensor; `outliers` as in `mean_of`. Raises InputError where columns are missing, with
+    the table's first rows as `detail`, and for a stated unit that is not known.
     """
     notes, doubts = [TRANSPOSED] * table.transposed, list[str]()
     roles = columns_of(table, columns, notes)
@@ -137,8 +137,7 @@ def response_columns(table: Table, columns: Sequence[str] | None = None) -> tupl
 @dataclass(slots=True)
 class _Reading:
     """Conversion of numbers to a response; assumptions are added to `notes`, suspicious findings to
-    `doubts`, the used columns to `uses`. `guess`: nobody said what the columns are but their
-    headers.
+    `doubts`, the used columns to `uses`. `guess`: only the headers state what the columns are.
     """
 
     table: Table
@@ -239,7 +238,7 @@ class _Reading:
         return 0.01 if level == "%" else 1.0
 
     def _level(self, at: int) -> str:
-        """The level that is asked for or stated."""
+        """The level that is requested or stated."""
         if self.magnitude_unit is None:
             self._known(at)
             return level_of(self.roles[at])
@@ -254,7 +253,7 @@ class _Reading:
         return level
 
     def _size(self, at: int, *, guess: bool) -> tuple[Real, str]:
-        """Gains and their level; where a column of which nobody said it has negative numbers, they
+        """Gains and their level; where a column without a stated level has negative numbers, they
         are dB.
         """
         size, level = self.table.column(at), self._level(at)
@@ -316,7 +315,7 @@ def _grid(
     notes: list[str],
     doubts: list[str],
 ) -> Real:
-    """Frequencies [rad/s]; what is assumed, or contradicts the numbers, is said."""
+    """Frequencies [rad/s]; assumptions, and contradictions to the numbers, are reported."""
     if column.unknown and asked is None:
         raise InputError(
             f"{table.origin}, {table.named(at)}: {short(column.unknown)} is not a known unit of"
@@ -339,7 +338,7 @@ def _why_unit(column: Column, taken: str, asked: bool) -> Why:
 def _units(
     table: Table, roles: Sequence[Column], group: Group, ours: Mapping[str, str]
 ) -> tuple[str, str]:
-    """Units of output and input of a response, "" where nothing says them."""
+    """Units of output and input of a response, "" where they are not stated."""
     if ours:
         return "", ""
     own = gain(roles[group.columns.get(Role.GAIN, group.first)].unit)
@@ -356,9 +355,9 @@ def _is_impedance(
     ours: Mapping[str, str],
     notes: list[str],
 ) -> bool:
-    """Return True for an impedance. A unit that is called ohm says so whatever else is said; V/A
-    and a name such as Re(Z) do where neither caller nor file says that this is a motion, such as
-    the speed that a tachometer shows in V.
+    """Return True for an impedance. A unit that is called ohm is an impedance in any case; V/A and
+    a name such as Re(Z) do unless caller or file states that this is a motion, such as the speed
+    that a tachometer shows in V.
     """
     if ours:  # files of earlier versions call the sensor of an impedance a position
         is_voltage = (ours.get("output label"), ours.get("output unit")) == tuple(VOLTAGE)

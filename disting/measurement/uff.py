@@ -52,8 +52,8 @@ def read_uff(
     """Frequency response number `record` (from 1, default 1) of a file; its coherence is taken
     from the file where it is there.
 
-    `quantity` where the file does not say it; `sign` = -1 for a reversed sensor. Raises InputError,
-    listing the responses.
+    `quantity` where the file does not state it; `sign` = -1 for a reversed sensor. Raises
+    InputError, listing the responses.
     """
     records = _records(file)
     responses = [r for r in records if r.get("type") == 58 and r.get("func_type") == RESPONSE]

@@ -1,4 +1,4 @@
-"""Units of measured signals: what a header says, and what it is in SI.
+"""Units of measured signals: the unit in a header, and its factor to SI.
 
 A motion is rad or m (or a multiple), with /s or /s^2; what drives it is a torque, a force, or a
 current or voltage. A new unit is a row of `MOTIONS` or `DRIVES`: every way to write it follows.
@@ -142,7 +142,7 @@ def omega_per(text: str) -> float | None:
 
 class Gain(NamedTuple):
     """Unit of a column of gains, or of their parts: its level, one of `LEVELS`, and the units of
-    output and input, "" where they are not said. `signal`: that of a signal alone, as a
+    output and input, "" where they are not stated. `signal`: that of a signal alone, as a
     generator's level has it, rather than of an output per input. `ohms`: of an impedance, what a
     number of 1 is in ohm; 0 of anything else.
     """
@@ -251,7 +251,7 @@ def drive(text: str) -> tuple[str, float] | None:
 
 
 def ratio(texts: Iterable[str]) -> tuple[str, str] | None:
-    """Units of output and input from headers and comments, where they agree; None where they say
+    """Units of output and input from headers and comments, where they agree; None where they state
     none.
 
     >>> ratio(["# acceleration/current, rad/s^2 per A"]), ratio(["f [Hz]", "Re"])

@@ -57,9 +57,9 @@ def from_variables(
     sign: int = 1,
 ) -> FrequencyResponse:
     """Response from variables of these names; without names, usual ones (f, freq, w, omega; G, H,
-    FRF, ...) are looked for.
+    FRF, ...) are searched.
 
-    `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not tell; `index` = which
+    `frequency_unit` = "Hz", "kHz" or "rad/s" where the name does not state it; `index` = which
     response (from 0, one number for every other axis) of an array of several; `quantity`, `sign` as
     for a text file.
     """
@@ -125,8 +125,8 @@ def series_from_variables(
     """Samples of the variables `input` and `output`; `sampling_rate` [Hz] = a number or a
     variable, or `time` [s] = a variable.
 
-    Without either, fs, Fs, Ts, dt, then t, time are looked for. A signal may be `NAME[2]`, one of
-    an array of several.
+    Without either, fs, Fs, Ts, dt, then t, time are searched. A signal may be `NAME[2]`, one of an
+    array of several.
     """
     rate, clock = _rate(arrays, sampling_rate, time, origin)
     signals = Signal(input), Signal(output)
@@ -211,8 +211,8 @@ def _optional(
     index: int | Sequence[int] | None,
     origin: str,
 ) -> tuple[str, Real | None]:
-    """The variable asked for; or the first usual one, if it has a value a line; its name and its
-    numbers, "" and None for none.
+    """The requested variable; or the first usual one, if it has one value for each line; its name
+    and its numbers, "" and None for none.
     """
     if asked is not None:
         return asked, row(
@@ -263,7 +263,7 @@ def _signal(arrays: Arrays, asked: str, origin: str) -> NDArray[Any]:
 def _rate(
     arrays: Arrays, asked: float | str | None, time: str | None, origin: str
 ) -> tuple[float, str]:
-    """Sampling rate [Hz] and the variable that says it, "" for none."""
+    """Sampling rate [Hz] and the variable that gives it, "" for none."""
     if asked is not None and not isinstance(asked, str):
         return asked, ""
     if isinstance(asked, str) or (time is None and any(n in arrays for n in RATE_NAMES)):

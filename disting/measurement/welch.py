@@ -10,7 +10,7 @@ loop r = u. With
 
 for n_d segments; 1/36 is the squared correlation of neighbouring segments (Welch 1967). A Hann
 window correlates the errors of neighbouring lines by 4/9, of next ones by 1/36: every second line
-is taken, which tells as much as all. For r = u this is the H1 estimator with
+is taken, which holds as much information as all. For r = u this is the H1 estimator with
 
     deviation = |G| sqrt((1 - gamma^2) / (gamma^2 n_e))
 
@@ -20,7 +20,7 @@ u holds the noise that the controller feeds back; H1 is then biased, up to -1/co
 knows no noise, gives G free of bias (joint input-output method: Ljung, System Identification, 2nd
 ed. 1999, section 13.5). The coherence is gamma^2 = |S_uy|^2 / (S_uu S_yy) in open loop, the smaller
 one of those of r with u and with y in closed loop. Without any relation, gamma^2 exceeds 1 - p^(1 /
-(n_e - 1)) with probability p; lines below that tell nothing and are left out.
+(n_e - 1)) with probability p; lines below that carry no information and are omitted.
 
 A segment of N samples smooths G over the squared main lobe of its window, of variance 4/3
 (pi rate/N)^2, so that G is wrong by
@@ -30,10 +30,10 @@ A segment of N samples smooths G over the squared main lobe of its window, of va
 of which chance makes 2.5/36 deviation^2. It has a sign, a resonance looks damped more than it is,
 so it is taken out, by the share w = 1 - `SURE` 2.5/36 deviation^2 / |bias|^2 of it, if positive;
 the squared deviation is 1 + 0.44 w^2 times as large then. What is left of it beyond chance, and the
-bias of what was taken out by the same formula, are added to the squared deviation. It is said where
-the bias is more than the deviation and than chance makes of any line (level `CHANCE`). A fit does
-without this: it sees its models through the same window (`window`), in open loop and where the
-input does not repeat itself, so that its lines do not stand apart.
+bias of what was taken out by the same formula, are added to the squared deviation. It is reported
+where the bias is more than the deviation and than chance makes of any line (level `CHANCE`). A fit
+does not need this: it compares its models through the same window (`window`), in open loop and
+where the input does not repeat itself, so that its lines are not isolated.
 """
 
 from typing import Any

@@ -14,10 +14,10 @@ structure too. Elements know their parameter's name and how they enter the equat
 A(s) x = e_act F with A(s) = M s^2 + D s + K: each adds parameter * s^power * v v^T for a vector v
 of the masses.
 
-The constraints (36), (37) and (38) of the paper are predicates, each with its equation number.
-(36) says where a port may be, (37) that every mass is excited and measured, (38) breaks the
-symmetry between models that differ in the numbering only. A chain that breaks (36) or (37) is no
-model; one that breaks (38) is a model with another numbering, so it can be made and compared but
+The constraints (36), (37) and (38) of the paper are predicates, each with its equation number. (36)
+restricts the places of ports, (37) requires that every mass is excited and measured, (38) breaks
+the symmetry between models that differ in the numbering only. A chain that breaks (36) or (37) is
+no model; one that breaks (38) is a model with another numbering, so it can be made and compared but
 is not listed in a family.
 """
 
@@ -188,7 +188,7 @@ class Spring(NamedTuple):
 
 
 class Damper(NamedTuple):
-    """Damper beside the spring of node `at`; parameter d_ij [N s/m or N m s/rad]."""
+    """Damper in parallel with the spring of node `at`; parameter d_ij [N s/m or N m s/rad]."""
 
     at: int
     kind: str = "d"
@@ -338,8 +338,8 @@ LEGEND = (
 @dataclass(frozen=True, slots=True)
 class Premise:
     """Premise that a name such as 3:4 does not state: dampers in parallel with the springs, the
-    sensor quantity, and further changes of the measurement. A network says its dampers and its
-    quantity itself: of it both are None.
+    sensor quantity, and further changes of the measurement. A network states its dampers and its
+    quantity itself: for it both are None.
 
     >>> str(Premise(True, Quantity.ACCELERATION, ("as it is", "sensor 3, mass 2 locked")))
     'damped, acceleration, measured as it is and with sensor 3, mass 2 locked'

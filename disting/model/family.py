@@ -3,7 +3,7 @@ counting: nothing is listed.
 
 The indices that are admissible are, gap by gap: n_act- and n_meas- each any low index (0 where the
 gap is 0, else 1..gap), n_act+ one of the nearer half of the free row, n_meas+ one from n_act+ to
-N_B. Models stand in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+), so how many stand
+N_B. Models are in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+), so the number of models
 before one is a sum of products.
 """
 
@@ -47,7 +47,9 @@ def before(indices: Indices) -> int:
 
 
 def after(n: int, place: int) -> Indices:
-    """The model that so many stand before: the inverse of `before`, for 0 <= place < count(n)."""
+    """The model preceded by this number of others: the inverse of `before`, for 0 <= place <
+    count(n).
+    """
     gap = 0
     while place >= _with_gap(n, gap):
         place -= _with_gap(n, gap)
@@ -85,8 +87,8 @@ MOST_MASSES = 40
 class Family(NotebookTable):
     """The chains with `n_masses` masses, in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
 
-    The sizes for N_B = 1..8 are 1, 3, 11, 29, 73, 157, 314, 574 (Table 2 and its continuation).
-    As where a model is named, springs have dampers beside them unless `damped` is False.
+    The sizes for N_B = 1..8 are 1, 3, 11, 29, 73, 157, 314, 574 (Table 2 and its continuation). As
+    where a model is named, springs have dampers in parallel unless `damped` is False.
 
     >>> len(Family(3)), Family(3)[4].parameters
     (11, ('m1', 'm2', 'm3', 'k12', 'k23', 'd12', 'd23'))

@@ -17,13 +17,12 @@ class Kind:
     """A row of the table; two are the same, and in order, by their `name`, as commands write it.
 
     `argument`: that of `Experiment`, none of kinds for networks alone. `is_port`: it moves a port;
-    else `power` is that of s with which its size stands in A(s)[i, i], None of what holds the mass
-    and takes no size. `text`, with {at} and {size}, names it in an experiment, `item` and
-    `anywhere` on a menu, `title` in a table; `sign` is drawn on the mass. `prices`: the names of
-    what it costs, of which the cheapest is paid; `cost`: that of each where none is named, None: on
-    a menu only where a cost is named. `always`: experiments without it say so where they are
-    written, as they did before there were other kinds. Raises InputError for a power that A(s) does
-    not have.
+    else `power` is that of s with which its size enters A(s)[i, i], None of what holds the mass and
+    takes no size. `text`, with {at} and {size}, names it in an experiment, `item` and `anywhere` on
+    a menu, `title` in a table; `sign` is drawn on the mass. `prices`: the names of what it costs,
+    of which the cheapest is paid; `cost`: that of each where none is named, None: on a menu only
+    where a cost is named. `always`: experiments without it state that where they are written, as
+    they did before there were other kinds. Raises InputError for a power that A(s) does not have.
     """
 
     name: str

@@ -12,15 +12,15 @@ the part what is added to its masses, of known size, adds up to what is added th
 and it is locked there if and only if one of these masses is.
 
 Proof. Let springs between masses of one node be 1/e, and so masses at 0. What meets an element of
-the part is a share of it; masses that are left out are what they are. All else is e, the lag and
-the dead time that the part lacks as well: their factors tend to 1. So A(s) = A_0 + e A_1 + C/e on
-the coordinates that are not locked. For real s other than 0, C is positive semidefinite; in its
-kernel x_i = y_j for a mass i at j, with y_0 = 0 and y_j = 0 where the part is locked, and masses
-that are left out move in any way. Let the columns of K span the kernel: K' A_0 K is A(s) of the
-part beside a diagonal, m s^2 and what is added, of the masses that are left out. It is invertible
-for all but finitely many s. On the orthogonal complement of the kernel C is positive definite;
-eliminating the complement shows that A^-1 -> K (K' A_0 K)^-1 K'. K' turns a force or a sensor at i
-into one at the node of i. So for e -> 0 all transfer functions converge, at infinitely many s.
+the part is a share of it; omitted masses are unchanged. All else is e, the lag and the dead time
+that the part lacks as well: their factors tend to 1. So A(s) = A_0 + e A_1 + C/e on the coordinates
+that are not locked. For real s other than 0, C is positive semidefinite; in its kernel x_i = y_j
+for a mass i at j, with y_0 = 0 and y_j = 0 where the part is locked, and masses that are left out
+move in any way. Let the columns of K span the kernel: K' A_0 K is A(s) of the part and a diagonal,
+m s^2 and the added terms, of the omitted masses. It is invertible for all but finitely many s. On
+the orthogonal complement of the kernel C is positive definite; eliminating the complement shows
+that A^-1 -> K (K' A_0 K)^-1 K'. K' turns a force or a sensor at i into one at the node of i. So for
+e -> 0 all transfer functions converge, at infinitely many s.
 """
 
 from collections import Counter
@@ -50,7 +50,7 @@ def is_minor(part: Structure, whole: Structure, places: Places) -> bool:
 
 
 def minors(part: Structure, whole: Structure, ports: Places) -> Iterator[dict[int, int]]:
-    """Yield the places that make the part of the whole and have some nodes where `ports` says.
+    """Yield the places that make the part of the whole and have some nodes at `ports`.
 
     >>> from disting.model.chain import Chain
     >>> one, two = (Chain(n).structure for n in (1, 2))

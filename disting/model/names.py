@@ -2,7 +2,7 @@
 damper from mass 2 to the ground, a first-order lag and a dead time.
 
 Where the number of masses is known, A1+b2 does. Damping of the springs and the sensor quantity are
-no part of a name; they are said once for all models that are named together.
+no part of a name; they are given once for all models that are named together.
 
 Exact numbers that users write: how long they may be. A power of ten is a short text and a
 number without end.
@@ -62,7 +62,7 @@ class Name:
         return not self.extras
 
     def chain(self, family: Family) -> Chain:
-        """The model, with the family's damping and sensor, and its size if none is said."""
+        """The model, with the family's damping and sensor, and its size if none is given."""
         return extend(with_masses(family, self.masses or family.n_masses)[self.number], self.extras)
 
 
@@ -111,10 +111,10 @@ def read_together(
     damped: bool | None = None,
     quantity: Quantity | str | None = None,
 ) -> list[Chain]:
-    """Models that are named together: what one of them does not say is taken from the others.
+    """Models that are named together: missing parts of one are taken from the others.
 
-    A4 has as many masses as those that say it. `damped` and `sensor` are of those given as text;
-    where they are not said (None), they are those of the first `Chain`, or damped chains whose
+    A4 has as many masses as those that state it. `damped` and `sensor` are of those given as text;
+    where they are not given (None), they are those of the first `Chain`, or damped chains whose
     acceleration is measured. Raises InputError.
 
     >>> [name_of(chain) for chain in read_together(["3:1", "A4+b2"])]
@@ -151,7 +151,7 @@ def name_of(chain: Chain) -> str:
 
 
 def is_whole_name(text: str) -> bool:
-    """Return True for the name of a chain that says how many masses it has, or its indices.
+    """Return True for the name of a chain that states its number of masses, or its indices.
 
     >>> [is_whole_name(text) for text in ("3:9", "A9", "drive")]
     [True, False, False]

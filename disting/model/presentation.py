@@ -1,9 +1,9 @@
 """Display of objects: a line at a prompt, and in a notebook the drawing of a package above.
 
-A line is made where the object is. A picture, a table of a notebook or a plot needs what stands
-above (`disting.report`), which the rooms below must not import, whether at the top of a module or
-inside a method. So they know only that there is a `Presenter`, and by which name it is called.
-Nothing is drawn, and nothing that draws is imported, before somebody looks.
+A line is made where the object is. A picture, a table of a notebook or a plot needs the layer above
+(`disting.report`), which the rooms below must not import, whether at the top of a module or inside
+a method. So they know only that there is a `Presenter`, and by which name it is called. Nothing is
+drawn, and nothing that draws is imported, before somebody looks.
 """
 
 from collections.abc import Mapping

@@ -2,7 +2,7 @@
 model.
 
 The behaviour of a model is its transfer functions, one or several, as they depend on the
-parameters; a family says what they are at a point modulo a prime, how large the polynomials behind
+parameters; a family gives their values at a point modulo a prime, how large the polynomials behind
 them are, and which invariants it proves to be constant.
 """
 
@@ -22,7 +22,7 @@ Columns = tuple[tuple[int, ...], list[tuple[int, ...]]]
 class Model(Protocol):
     """A parametric model: immutable, hashable, and written out by its fields.
 
-    A number of Markov parameters is that after G_0; None stands for the coefficients.
+    A number of Markov parameters is that after G_0; None denotes the coefficients.
     """
 
     def __hash__(self) -> int:
@@ -42,7 +42,7 @@ class Model(Protocol):
 
     @property
     def content(self) -> tuple[object, ...]:
-        """All that tells it from other models: labels of random points are made of it."""
+        """All that distinguishes it from other models: labels of random points are made of it."""
 
     @property
     def degrees(self) -> tuple[Degrees, ...]:

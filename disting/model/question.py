@@ -19,7 +19,7 @@ class Of(StrEnum):
 
 
 class Domain(StrEnum):
-    """Admissible parameter values. What is said of complex values is said of generic ones.
+    """Admissible parameter values. Statements on complex values are on generic ones.
 
     >>> from disting import Query, View, compare
     >>> compare("3:1", "3:2").domain is Domain.POSITIVE
@@ -36,7 +36,7 @@ class Relation(StrEnum):
 
     INDISTINGUISHABLE: generic parameters of either model have an equivalent in the other.
     DISTINGUISHABLE: those of one of them, at least, have none; the verdict's inclusion and its two
-    shares tell of the other one. SOMETIMES: some parameters have an equivalent and others have
+    shares describe the other one. SOMETIMES: some parameters have an equivalent and others have
     none, of two models that are indistinguishable over complex parameters.
 
     >>> from disting import compare
@@ -74,8 +74,8 @@ class Settings:
 
 T = TypeVar("T")
 Models = tuple[Any, ...]
-"""One chain or general model, or an ordered pair of them: frozen dataclasses, whose fields tell all
-of them.
+"""One chain or general model, or an ordered pair of them: frozen dataclasses, whose fields define
+them completely.
 """
 
 

@@ -148,7 +148,7 @@ def rows_of(structure: Structure) -> tuple[Row, ...]:
     """The rows that have ports, from the wall outwards; masses numbered from 1 in each.
 
     Raises InputError for a structure that no chain has: with more than two ports in a row, or
-    dampers beside some of a row's springs only.
+    dampers in parallel with some of a row's springs only.
 
     >>> from disting.model.chain import Chain
     >>> print(*rows_of(Chain(3, 1, 1, 2, 1, 3, damped=False).structure), sep="; ")
@@ -186,7 +186,7 @@ def _rows(structure: Structure) -> Iterator[Row]:
 
 
 def _row(structure: Structure, first: int, last: int, ports: tuple[int, int]) -> Row:
-    """The row of these masses, numbered anew."""
+    """The row of these masses, renumbered."""
     before, n = first - 1, last - first + 1
     springs, dampers, ground_dampers = (
         {e.at - before for e in structure.elements if e.kind == kind} for kind in "kdb"

@@ -33,7 +33,7 @@ Vector = tuple[tuple[int, int], ...]
 @dataclass(frozen=True, slots=True)
 class Entry:
     """An element: the place of its value among the parameters (None of a compartment, whose entry
-    is s), its power of s, whether 1/p stands for p, where it pulls and what it feels, and the place
+    is s), its power of s, whether 1/p replaces p, where it acts and what drives it, and the place
     of its ratio, which multiplies the last row of both (None without a gear).
     """
 
@@ -156,7 +156,7 @@ def assembly(network: Network, halves: bool) -> Assembly | None:
 
 
 _frame = lru_cache(maxsize=REMEMBERED)(Frame)
-"""All ports of a network share it, and it is looked up by what it is, not by what it holds."""
+"""All ports of a network share it, and it is looked up by identity, not by content."""
 
 
 def _entry(e: Element, places: dict[str, int], power: int, scale: int) -> Entry:

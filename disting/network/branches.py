@@ -1,9 +1,9 @@
 """One-ports made of branches in series and parallel, and what remains of them when elements are
-taken away, in whatever order they are drawn.
+removed, in any order they are drawn.
 
-What is seen at two nodes is a quotient of sums over spanning trees, with and without an edge
-between them, so branches in series may change places: such a one-port is known by its kinds alone.
-That what remains is a limit is the theorem of `disting.network.minors`.
+The function measured at two nodes is a quotient of sums over spanning trees, with and without an
+edge between them, so branches in series may change places: such a one-port is known by its kinds
+alone. That what remains is a limit is the theorem of `disting.network.minors`.
 """
 
 from collections import Counter
@@ -93,7 +93,8 @@ def _branches(
     elements: Iterable[Element], network: Network, rigid: Iterable[Element]
 ) -> Branch | None:
     """The branches of these elements between the ends of the force, others being rigid; None where
-    it is open or shorted, an element is not seen, or two constant phase elements share an exponent.
+    it is open or shorted, an element has no effect, or two constant phase elements share an
+    exponent.
     """
     elements = tuple(elements)
     shared = Counter(e.exponent for e in elements if e.exponent)

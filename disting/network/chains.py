@@ -80,8 +80,8 @@ class RenamedChain:
     names: dict[str, str]
 
     def note(self, name: str) -> str:
-        """Return what a verdict on the network of that name has to say of its parameters, "" where
-        the chain calls them the same.
+        """Note of a verdict on the network of that name on its parameters, "" where the chain has
+        the same names.
         """
         pairs = [f"{own} is {other}" for own, other in self.names.items() if own != other]
         chain = name_of(self.chain)

@@ -84,8 +84,8 @@ def refuse_misnamed(name: str, naming: Naming) -> None:
 @lru_cache(maxsize=REMEMBERED)
 def readings(name: str, quantity: Quantity) -> tuple[Chain | Network, ...] | None:
     """The models that a name can denote, with sensors of this quantity unless it states another
-    one; none for a name of a chain that does not exist, None for free text. What verdicts add to
-    a name, to tell two models of one name apart, may follow it.
+    one; none for a name of a chain that does not exist, None for free text. What verdicts add to a
+    name, to distinguish two models of one name, may follow it.
     """
     if is_whole_name(name):
         chains = (chain_of_whole_name(name, damped, quantity) for damped in (True, False))

@@ -3,9 +3,9 @@
     G = s^q c^T P^-1 b = s^q det [[P, b], [-c^T, 0]] / det P
 
 Every value enters P to the first power, so it does both determinants, and a value p that divides
-enters them as 1/p: both are multiplied by p. For s^n of a constant phase element stands a variable
-of its own, called n. Powers of s are counted in steps of s^(1/2) where
-Warburg elements have half ones; where inductors have s^-1, P is multiplied by s, or s^2 in halves.
+enters them as 1/p: both are multiplied by p. A variable of its own represents s^n of a constant
+phase element, called n. Powers of s are counted in steps of s^(1/2) where Warburg elements have
+half ones; where inductors have s^-1, P is multiplied by s, or s^2 in halves.
 """
 
 from collections.abc import Mapping

@@ -11,29 +11,28 @@ forests of two trees, one through A, one through B,
     c^T adj P b = f(a+ c+ | a- c-) - f(a+ c- | a- c+)
 
 Where the ports share a node, one of both is empty: all terms have one sign, and what is not zero
-where all values are 1 is not zero. Where they do not, forests are counted (`.trees`).
-Gears: where ratios agree (`.gears`) D and N are those of a network without gears at values times
-products of ratios, and N is multiplied by one: as many terms, of the same signs but for one that
-all terms of N share. Of others nothing is said. Ratios that are numbers multiply each term by a
-number.
+where all values are 1 is not zero. Where they do not, forests are counted (`.trees`). Gears: where
+ratios agree (`.gears`) D and N are those of a network without gears at values times products of
+ratios, and N is multiplied by one: as many terms, of the same signs but for one that all terms of N
+share. Nothing is claimed for others. Ratios that are numbers multiply each term by a number.
 
 The coefficients where all values are 1 are whole numbers, read as the digits of D and N at s = 2^B,
 with 2^B above their sum.
 
 LEMMA. Every value enters N and D to the first power. If G at a point, in lowest terms, has the
-degrees of N and D less the power of s that they share everywhere, and depends there on every value
-that is seen, then that power is all that N and D have in common, but for ratios of gears. Proof:
-any other common factor that holds s would keep its degree at the point, as the leading coefficients
-do not vanish, and would be cancelled there. One without s that holds some value p: N and D being
-linear in p, what is left of both is free of p, and so is G. One of ratios alone divides every
-coefficient, which is a product of ratios, so it is such a product: a ratio that some term of N or
-of D lacks is not in it.
+degrees of N and D less the power of s that they share everywhere, and depends there on every
+observable value, then that power is all that N and D have in common, except for ratios of gears.
+Proof: any other common factor that holds s would keep its degree at the point, as the leading
+coefficients do not vanish, and would be cancelled there. One without s that holds some value p: N
+and D being linear in p, what is left of both is free of p, and so is G. One of ratios alone divides
+every coefficient, which is a product of ratios, so it is such a product: a ratio that some term of
+N or of D lacks is not in it.
 
 Spanning forests of a graph counted by what they connect, with edges of many kinds as weights.
 
-Nodes are taken one after another, the one with fewest neighbours first. What is kept of a forest is
-which nodes that are still there hang together: so chains, trees and narrow loops have few states,
-whatever their size.
+Nodes are taken one after another, the one with fewest neighbours first. Only the connection of the
+remaining nodes in a forest is stored: so chains, trees and narrow loops have few states, whatever
+their size.
 """
 
 from collections import Counter
@@ -58,9 +57,9 @@ Sides = tuple[tuple[int, ...], tuple[int, ...]]
 
 
 def forests(weights: Mapping[Edge, int], kept: Iterable[int]) -> Mapping[Partition, int] | None:
-    """For each way in which the nodes `kept` can hang together the sum, over the spanning forests
-    that join them like that and hold no other tree, of the products of their edges' weights; None
-    of a graph that has too many states.
+    """For each way in which the nodes `kept` can be connected the sum, over the spanning forests
+    that connect them so and hold no other tree, of the products of their edges' weights; None of a
+    graph that has too many states.
 
     >>> triangle = {frozenset(edge): 1 for edge in ((0, 1), (1, 2), (0, 2))}
     >>> {len(trees): count for trees, count in forests(triangle, [0, 1]).items()}

@@ -3,13 +3,13 @@
 THEOREM. Let there be numbers h_i with h_i = g h_j for every element between nodes i and j of ratio
 g (1 without a gear), the same for the nodes of all forces, and for those of all sensors. Then the
 machine gives the transfer functions that it gives without gears; h_i > 0, as ratios are, so that
-positive values go with positive ones. Proof. With x_i = h_i y_i an element feels x_i - g x_j =
-h_i (y_i - y_j), one to the ground h_i y_i: so y moves as without gears, with values p_e h_i^2 and
+positive values go with positive ones. Proof. With x_i = h_i y_i an element feels x_i - g x_j = h_i
+(y_i - y_j), one to the ground h_i y_i: so y moves as without gears, with values p_e h_i^2 and
 forces times h, and sensors show h y. The product of both h is a number: all values divided by it
-take it away.
+remove it.
 
 Ratios agree in a tree, and in loops around which their product is 1. An unknown ratio that agrees
-can be any number: nothing that these ports show tells it.
+can be any number: these ports do not determine it.
 """
 
 from collections.abc import Iterator

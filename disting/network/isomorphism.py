@@ -1,14 +1,14 @@
 """Equality of networks up to numbering: nodes renumbered, parameters renamed one to one.
 
 Both networks become coloured graphs. Vertices are nodes, elements, ports, and the names of ratios
-and exponents, which several elements may share; an edge says where an element or a port sits, and
-which name it has. Two networks are the same if an isomorphism carries one graph to the other.
+and exponents, which several elements may share; an edge gives the place of an element or a port,
+and its name. Two networks are the same if an isomorphism carries one graph to the other.
 
-Colours are refined until all vertices of one colour see the same colours. Where several vertices
-have one colour, one is fixed on the left and every one is tried on the right. THEOREM. If the
-refined colours of both graphs are equally frequent and each occurs once, they name an isomorphism.
-Proof. Vertices of one colour have neighbours of the same colours over the same labels, and a colour
-names one vertex on each side.
+Colours are refined until all vertices of one colour have neighbours of the same colours. Where
+several vertices have one colour, one is fixed on the left and every one is tried on the right.
+THEOREM. If the refined colours of both graphs are equally frequent and each occurs once, they name
+an isomorphism. Proof. Vertices of one colour have neighbours of the same colours over the same
+labels, and a colour names one vertex on each side.
 """
 
 from collections import Counter

@@ -25,9 +25,9 @@ compartments which no flow connects with it, s for each, and the transfer functi
 part, as they are continuous in e.
 
 Gears of which a ratio is known are elements like others if both have the same ratio; an unknown
-ratio of the whole stands for one ratio of the part. Neither is contracted.
+ratio of the whole denotes one ratio of the part. Neither is contracted.
 
-An exponent of the whole stands for one exponent of the part, or for 0, 1/2 or 1: a constant phase
+An exponent of the whole denotes one exponent of the part, or for 0, 1/2 or 1: a constant phase
 element then is a resistor, a Warburg element or a capacitor, P(s) being continuous in it.
 """
 

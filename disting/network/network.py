@@ -5,11 +5,11 @@
 A machine shows motions per force, a circuit voltages per current, compartments contents per inflow.
 q counts the differentiations of the sensor.
 
-An element of value p connects nodes: it adds p s^r u v^T to the matrix P(s), where u and v say at
-which nodes it pulls and what it feels; of a resistor, an inductor and a Warburg element 1/p stands
-for p. The power r of a constant phase element is its exponent, a parameter that has a name.
+An element of value p connects nodes: it adds p s^r u v^T to the matrix P(s), where u gives the
+nodes at which it acts and v what drives it; of a resistor, an inductor and a Warburg element 1/p
+replaces p. The power r of a constant phase element is its exponent, a parameter that has a name.
 Node 0 is the ground (a reference node, the outside) and has no row. As a graph, nodes and elements
-show what is connected and what a port can see.
+show what is connected and what a port can measure.
 """
 
 import re
@@ -29,7 +29,7 @@ from disting.quantities import refuse_improper
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """A kind of element: its letter, what it is called, and its term of P(s).
+    """A kind of element: its letter, its name, and its term of P(s).
 
     `halves`: 2 r, as the power of s is a half for a Warburg element; `divides`: 1/p enters;
     `ends`: at how many nodes it sits.
@@ -121,7 +121,7 @@ class Element:
 
     @property
     def feels(self) -> dict[int, Fraction | str]:
-        """The vector v, by nodes other than the ground; a text stands for minus a parameter."""
+        """The vector v, by nodes other than the ground; a text denotes minus a parameter."""
         first, *others = self.nodes
         if self.letter == "a" or not others:
             return {first: Fraction(1)}
@@ -228,8 +228,7 @@ def as_number(text: str) -> Fraction | None:
 
 
 def kind_of(name: str) -> Kind:
-    """The kind that the first letter of a name says: b is a damper too, as of bearings; raises
-    InputError.
+    """Kind by the first letter of a name: b is a damper too, as of bearings; raises InputError.
 
     >>> kind_of("k12").word, kind_of("b2").word
     ('spring', 'damper')
@@ -385,8 +384,8 @@ REMEMBERED = 4096  # networks, of which it is known what is seen
 @dataclass(frozen=True, slots=True)
 class Network(NotebookPicture):
     """A linear network: `elements`, all of one sort; `inputs` and `outputs`, the ports of forces
-    and sensors (of a circuit: where the current enters and the voltage is seen); `order`, how often
-    what the sensors show is differentiated.
+    and sensors (of a circuit: where the current enters and the voltage is measured); `order`, how
+    often what the sensors show is differentiated.
 
     Node 0 is the ground. Immutable and hashable; equal if all is but the name. Raises InputError.
 
@@ -495,10 +494,10 @@ class Network(NotebookPicture):
     @property
     def grounded(self) -> "Network":
         """Measurable part, with one node of every floating part as its ground; differences of
-        potentials are unchanged by it. Nodes are numbered anew from 1.
+        potentials are unchanged by it. Nodes are renumbered from 1.
 
-        What is not seen is contracted: of reciprocal networks no current flows in it, or none that
-        a port sees. Compartments that are not seen are the outside.
+        Unobservable parts are contracted: in reciprocal networks no current flows in them, or none
+        that a port measures. Compartments that are not observable are the outside.
         """
         seen, nodes = self.seen, (0, *self.nodes)
         if self.is_directed:
@@ -522,7 +521,7 @@ class Network(NotebookPicture):
     @property
     def cells(self) -> tuple[tuple["Network", ...], ...]:
         """The network between each output and each input, a row for each output; where nothing is
-        seen there is no way between both.
+        measured there is no path between both.
         """
         return tuple(
             tuple(_unchecked(self.elements, (enter,), (show,), self) for enter in self.inputs)

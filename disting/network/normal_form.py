@@ -14,10 +14,10 @@ c, z give all of K(n, c, z), and for generic values nothing else. Proof, by the 
 An element is K(0, 1, 0) or K(0, 0, 1). In series F is the sum over the branches: generic branches
 share no a_i, so their n add up, and c, z are there if a branch has them. Conversely give of F in K
 each branch as many terms as its n, any ones, and a share of k and of k_0 to each branch that has
-such a term: each share is all that a branch can be, by the induction. In parallel the same is said
-of 1/(x F), which is in K(n + c + z - 1, not c, not z): F falls strictly between its poles, so it
-has one zero there, one more left of all poles if c, and none else; at a zero -b the residue of
-1/(x F) is 1/(-b F'(-b)) > 0.
+such a term: each share is all that a branch can be, by the induction. In parallel the same holds
+for 1/(x F), which is in K(n + c + z - 1, not c, not z): F falls strictly between its poles, so it
+has one zero there, one more left of all poles if c, and none else; at a zero -b the residue of 1/(x
+F) is 1/(-b F'(-b)) > 0.
 
 Replacement. Values of different parts are chosen independently. So networks give the same transfer
 functions if they are the same graph with the same sets of compliances at its edges, whatever the

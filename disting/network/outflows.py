@@ -27,7 +27,7 @@ Flows = Collection[tuple[int, int]]
 def simplest_outflows(
     flows: Flows, leaky: Collection[int], enter: Collection[int], leave: Collection[int]
 ) -> set[int]:
-    """Compartments whose outflows give the same transfer functions as these, as the theorem says.
+    """Compartments whose outflows give the same transfer functions as these, by the theorem.
 
     >>> sorted(simplest_outflows({(1, 2), (2, 1), (2, 3), (3, 1)}, {2, 3}, {1}, {1}))
     [1]

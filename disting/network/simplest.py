@@ -1,4 +1,4 @@
-"""The simplest network of a normal form: what can replace each other became one and the same part.
+"""The simplest network of a normal form: what can replace each other became the same part.
 
 Of the parts that give all of a set K(n, c, z) (see `normal_form`) the ladder is the simplest: all
 its values are fractions of the coefficients of what it gives (Cauer's continued fraction). A tree
@@ -132,7 +132,7 @@ def _orders(
     form: NormalForm, held: list[int], others: list[int], is_directed: bool
 ) -> Iterator[tuple[int, ...]]:
     """Yield the orders of the other nodes, those first that come first by their colours: what is at
-    a node, then the colours of its neighbours, until no more nodes are told apart.
+    a node, then the colours of its neighbours, until no more nodes are distinguished.
     """
     everyone = dict.fromkeys((*held, *others))
     first = [(0, a, b, label) for a, b, label in form.edges] + [

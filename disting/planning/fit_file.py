@@ -1,9 +1,9 @@
 """Content of the file of a fit: the selected structure, its rivals, and the measurement.
 
-Rivals are the structures that the data do not exclude and those of which it is not known whether
-they behave the same. What contains one of them is no rival: no experiment excludes it if the
-smaller one is true. What behaves exactly the same for the fitted values stands apart: no data with
-this force and sensor tell it from the selected one.
+Rivals are the structures that the data do not exclude and those that may be equivalent. What
+contains one of them is no rival: no experiment excludes it if the smaller one is true. Structures
+that are equivalent for the fitted values are listed separately: no data with this force and sensor
+distinguish them from the selected one.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -66,13 +66,14 @@ class Survivor:
 @dataclass(frozen=True, slots=True)
 class FitRecord:
     """`explained`: whether the selected structure explains the data, or nearly; `same`: names of
-    what behaves the same, with the reason; `rivals` with their fitted values, none of those that
+    equivalent structures, with the reason; `rivals` with their fitted values, none of those that
     were not fitted; `left`: the structures that the data leave, the selected one first; `scatter`
-    of a line; `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not tell;
-    `responses`: how many were fitted together; `command`: what fits the same data again, "" where
-    it does not tell; `errors`: relative standard errors of the selected structure's parameters,
-    infinite for one that is not determined; `larger`: the structures that contain one of these,
-    with their fitted values, `determined`: those of which the data determine all parameters.
+    of a line; `low`, `high` [Hz] and number of the `lines`, 0 each where the file does not state
+    them; `responses`: how many were fitted together; `command`: what fits the same data again, ""
+    where it is not stated; `errors`: relative standard errors of the selected structure's
+    parameters, infinite for one that is not determined; `larger`: the structures that contain one
+    of these, with their fitted values, `determined`: those of which the data determine all
+    parameters.
     """
 
     model: Chain
@@ -143,7 +144,7 @@ def _count(value: Any) -> int:
 
 def _is_larger(entry: Mapping[str, Any], model: Chain) -> bool:
     """Return True if an entry of the file contains the selected structure, or another one as the
-    file tells.
+    file states.
     """
     return bool(entry.get("contains")) or contains(chain_from_dict(dict(entry)), model)
 
@@ -154,7 +155,7 @@ def _determined(plain: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _rivals(plain: dict[str, Any], model: Chain) -> Iterator[tuple[Chain, Parameters]]:
-    """In the order of the file, those with values last, which stand."""
+    """In the order of the file, those with values last, which replace earlier ones."""
     for alternative in plain["alternatives"]:
         chain = chain_from_dict(alternative)
         if alternative["relation"] != Relation.INDISTINGUISHABLE and not contains(chain, model):
@@ -349,7 +350,7 @@ def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, .
 
 
 def _with_containment(survivor: LeftNetwork, selected: Network | None) -> LeftNetwork:
-    """The network, which contains the selected one even where the file does not tell."""
+    """The network, which contains the selected one even where the file does not state it."""
     if selected is None or survivor.contains or not contains(survivor.network, selected):
         return survivor
     return replace(survivor, contains=selected.name)

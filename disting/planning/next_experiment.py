@@ -1,6 +1,6 @@
 """Predicted result of a further experiment on the structures that a fit left, each at its values.
 
-The experiment gives the responses G_A, of the one that is taken for true, and G_B on lines that
+The experiment gives the responses G_A, of the one that is assumed true, and G_B on lines that
 scatter by rho in ln |G| and in arg G. With r_k = |G_B/G_A - 1|_k / rho_k
 
     largest = max_k r_k,    lambda = sum_k r_k^2.
@@ -14,8 +14,8 @@ Which mass of one structure is which of another one is not known: `least` takes 
 differs least. A structure with several parameter vectors that the data leave is as far away as
 the nearest of them.
 
-How the structures that a fit left stand to each other: which of them no data with this force and
-sensor tell apart, and which the noise alone left together.
+Relations of the structures that a fit left: those that no data with this force and sensor
+distinguish, and those that only the noise left together.
 
 Over generic complex parameters to be indistinguishable is transitive, so each structure is compared
 with one of each class only.
@@ -52,9 +52,9 @@ class Reason(StrEnum):
     """Of two structures that the data leave.
 
     EQUAL: indistinguishable by this force and sensor, over generic complex parameters; TWIN: one
-    has the response of the other for its fitted values, though generic ones are told apart; NOISE:
-    distinguishable, and noise alone leaves both; OPEN: whether they are distinguishable is not
-    known.
+    has the response of the other for its fitted values, though generic ones are distinguishable;
+    NOISE: distinguishable, and noise alone leaves both; OPEN: whether they are distinguishable is
+    not known.
     """
 
     EQUAL = "equal"
@@ -66,8 +66,8 @@ class Reason(StrEnum):
 @dataclass(frozen=True, slots=True)
 class Stood:
     """`classes`: structures of one size, counted from 0, that are EQUAL, singles included; `rules`:
-    what told the first ones of two classes apart, "" where nothing did; `across`: pairs of classes
-    that are EQUAL though of two sizes.
+    the rule that distinguished the first ones of two classes, "" where nothing did; `across`: pairs
+    of classes that are EQUAL though of two sizes.
     """
 
     left: tuple[Survivor, ...]
@@ -185,7 +185,7 @@ MOVES = Step(inf, inf, 0.0)
 
 def bench_of(named: FitRecord) -> Bench | None:
     """The lines of the fit with their typical scatter, and an inertia as large as the mean mass of
-    the selected structure; None where the file does not tell the lines.
+    the selected structure; None where the file does not state the lines.
     """
     if not (0 < named.low < named.high and named.scatter > 0):
         return None
@@ -243,8 +243,8 @@ class Predictions:
         return {name: self.bench.size(power) for name, power in sized if power is not None}
 
     def at(self, kind: Kind, own_spot: Spot, other_spot: Spot) -> Step | None:
-        """The difference of two structures at these masses, the first taken for true; None where
-        one has no known values.
+        """The difference of two structures at these masses, the first assumed true; None where one
+        has no known values.
         """
         rows = [self.responses.get((Item(kind, i), k), ()) for k, i in (own_spot, other_spot)]
         steps = [step(own_values, other, self.bench) for own_values, other in product(*rows)]

@@ -76,8 +76,8 @@ SEED = 20_251
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sample:
-    """Of simulated measurements, shape (n,) each: `limits` of T, `shares` = lambda as they see it
-    per lambda, `widths` = v; s = `surplus`.
+    """Of simulated measurements, shape (n,) each: `limits` of T, `shares` = lambda as they estimate
+    it per lambda, `widths` = v; s = `surplus`.
     """
 
     limits: Real
@@ -120,7 +120,7 @@ def ideal(surplus: int = 1, level: float = LEVEL) -> Sample:
 
 
 def simulate(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
-    """The test with the scatter as so many repeats tell it."""
+    """The test with the scatter as estimated from this number of repeats."""
     source = np.random.default_rng(SEED)
     residual, columns = rival.cost.of(rival.plant, rival.best.p)
     limits, shares, widths = np.empty((3, DRAWS))
@@ -142,7 +142,7 @@ def simulate(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
 def _found(
     exact: FrequencyResponse, rho: Real, source: np.random.Generator, repeats: int
 ) -> Scatter:
-    """The scatter that a simulated measurement tells."""
+    """The scatter estimated from a simulated measurement."""
     shape = (2, repeats, len(exact))
     real, imaginary = source.normal(size=shape)
     error: Complex = real + 1j * imaginary
@@ -225,7 +225,7 @@ class Plan(NotebookTable):
 
     @property
     def noncentrality(self) -> float:
-        """lambda; 0 where the rival does the same."""
+        """lambda; 0 where the rival is equivalent."""
         return 0.0 if self.rival is None or self.rival.is_same else self.rival.noncentrality
 
     @property
@@ -247,7 +247,7 @@ class Plan(NotebookTable):
 
     @property
     def level(self) -> float:
-        """Of the test: divided by the places where an element of the model is looked for."""
+        """Of the test: divided by the places where an element of the model is searched."""
         model, other = self.model, self.other
         lines = 1 if self.rival is None else len(self.rival.rho)
         if isinstance(model, Chain) and isinstance(other, Chain):
@@ -282,9 +282,8 @@ def plan(
 ) -> Plan:
     """Power of data of `model` with these parameters against `rival`, at angular frequencies
     [rad/s] whose lines scatter by `rho`, shape (n_f,) each, which a fit finds from so many
-    `repeats` (module `sample`), or knows (None). Raises InputError for missing,
-    unknown or negative values (not asked for where both behave the same), and for a chain beside a
-    network.
+    `repeats` (module `sample`), or knows (None). Raises InputError for missing, unknown or negative
+    values (not required where both are equivalent), and for a chain together with a network.
     """
     engine = engine or Engine()
     rival = shown_as(rival, sensor_of(model))

@@ -7,11 +7,12 @@ rival the cost of the fit is
     lambda = min over the rival's parameters of sum_k |G_B/G_A - 1|_k^2 / rho_k^2,
 
 the noncentrality of the test below if the model is true. Distances are those in the complex plane,
-in which `fit` tests (`WhitenedCost`): of a noise that is not small logarithms tell another power.
-The search is that of a fit to measured data, which begins from the model's values too where the
-rival has the same masses and springs; what it finds is never below the smallest one, so lambda is
-at most what is said. The model itself is fitted beside its rival: a search that does not find back
-the values from which the response was computed has missed the rival's best values perhaps too.
+in which `fit` tests (`WhitenedCost`): of a noise that is not small logarithms give a different
+power. The search is that of a fit to measured data, which begins from the model's values too where
+the rival has the same masses and springs; what it finds is never below the smallest one, so lambda
+is at most the reported value. The model itself is fitted together with its rival: a search that
+does not find back the values from which the response was computed has missed the rival's best
+values perhaps too.
 
 The test is that of `exclusion`: both structures are fitted to the data, and T is the part of the
 rival's residuals that the difference of the two responses explains, after removing what other
@@ -124,7 +125,7 @@ def search(
     progress: Progress = silent,
 ) -> Search:
     """The best fit of a rival to the response of a model, and of the model itself. Raises
-    InputError for a chain beside a network.
+    InputError for a chain together with a network.
     """
     if isinstance(model, Chain) and isinstance(rival, Chain):
         task = Task(cost)

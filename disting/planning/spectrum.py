@@ -14,9 +14,10 @@ the best spectrum so far (W. Ben-Ameur, J. Neto, Acceleration of cutting-plane a
 generation algorithms, 2007), until the upper bound is met.
 
 The bound holds whatever the search of the rival's parameters misses; what it misses makes the
-spectrum found look better than it is, so the rival is searched anew, from all starts, at the end.
+spectrum found look better than it is, so the rival is searched again, from all starts, at the end.
 
-What to excite: bands and spectra beside the planned lines, as an excitation that can be run.
+What to excite: bands and spectra in addition to the planned lines, as an excitation that can be
+run.
 
 A bench limits the power of an excitation, or its largest value. The peak of a multisine is its root
 mean square times its crest factor; so at an equal peak the noncentrality of a spectrum is that at

@@ -4,8 +4,8 @@ thousands of models.
 The page holds the classes in a compact form, not the pairs; its script looks every pair up as
 `Classes` does. A class has a bucket number in every column (0: not known), a model its class and
 what the rules inside a class go by: which models are renamings of it, its free choice (0: none),
-its rank. Classes are numbered from 0, the largest first, so that the classes of several models
-come before the others; columns are told class by class, models in the family's order.
+its rank. Classes are numbered from 0, the largest first, so that the classes of several models come
+before the others; columns are listed class by class, models in the family's order.
 """
 
 from collections.abc import Iterator, Sequence
@@ -38,7 +38,7 @@ from disting.verdict.result import Relation
 
 Numbers = NDArray[np.int64]
 Rule = tuple[str, str, str]
-"""Sign in a field, name in words, and what the condition asks for."""
+"""Sign in a field, name in words, and the condition."""
 LINKS = {
     "renaming": RENAMING,
     "free": FREE_CHOICE,
@@ -113,7 +113,7 @@ def payload(family: DamperFamily, **more: object) -> Markup:
 
 
 def bits(masses: Masses) -> int:
-    """A set of masses as a number: bit m stands for mass m.
+    """A set of masses as a number: bit m denotes mass m.
 
     >>> bits((1, 3))
     10
@@ -122,8 +122,8 @@ def bits(masses: Masses) -> int:
 
 
 def mirror(chain: Chain) -> int:
-    """Mass m of the free row may be taken for mass (this number) - m, because force and sensor
-    are at its centre; else 0.
+    """Mass m of the free row is equivalent to mass (this number) - m, because force and sensor are
+    at its centre; else 0.
 
     >>> mirror(Chain(3, 0, 0, 2, 0, 2, damped=False)), mirror(Chain(3, damped=False))
     (4, 0)
@@ -209,7 +209,7 @@ class Open:
 
 
 def damper_page(the_family: DamperFamily, *, beside: Families | None = None) -> str:
-    """HTML of a family with sets of ground dampers; `beside`: the pages of pairs beside it (see
+    """HTML of a family with sets of ground dampers; `beside`: the adjacent pages of pairs (see
     `families`).
 
     >>> from disting.catalogs.dampers import damper_catalog
@@ -312,5 +312,5 @@ def _short(name: Name) -> str:
 
 
 def _title(words: str) -> str:
-    """Without the number, which stands beside it."""
+    """Without the number, which is next to it."""
     return words.partition(", ")[2] or words.removeprefix("the ")

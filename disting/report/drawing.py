@@ -5,8 +5,8 @@ ground      force F: a circle on a bar above the masses, arrows push on the mass
   |/--zz--[m1]  gap  [m2]
 
 Every part carries the name of its parameter: a mass inside, a spring above it, a damper below it, a
-damper to the ground on the left of its cup. Where names and signs stand, nothing else passes:
-above and below the middle of a joint; upright lines are at masses only.
+damper to the ground on the left of its cup. Nothing crosses names and signs: above and below the
+middle of a joint; upright lines are at masses only.
 
 A page holds each drawing once, and shows it wherever it refers to it. Drawings share their parts: a
 mass, a spring, a place of the force is held once by a page. Dampers to the ground are parts of
@@ -14,7 +14,7 @@ their own, one a mass, laid over the drawing of any chain of that size; where on
 a sensor the bar is broken, as in the drawing of a single chain.
 
 What an experiment adds is drawn too. A further sensor is a bar below that of the first; a moved
-force stands for that of the chain; a locked mass is clamped between two pieces of ground; what is
+force replaces that of the chain; a locked mass is clamped between two pieces of ground; what is
 added is a block with its sign on the mass, +J for a known inertia. Each is a layer over the drawing
 of any chain of the size, so that a page holds it once.
 """
@@ -180,7 +180,7 @@ def _element(element: Element, at: Layout) -> tuple[Shape, ...]:
 
 
 def _label(name: str, x: float, y: float, anchor: Anchor = Anchor.MIDDLE) -> Text:
-    """The name of a parameter beside its part."""
+    """The name of a parameter next to its part."""
     return Text(x, y, name, LETTERS, Ink.LABEL, anchor)
 
 
@@ -210,7 +210,7 @@ def _damper(x0: float, x1: float, y: float) -> tuple[Shape, ...]:
 
 
 def _ground_damper(x: float, at: Layout) -> tuple[Shape, ...]:
-    """Dashpot that hangs from a mass and stands on a piece of ground."""
+    """Dashpot that hangs from a mass above a piece of ground."""
     top, foot = at.axis + MASS / 2, at.height - 9
     piston = foot - 13
     cup = Path(((x - 5, piston - 4), (x - 5, foot - 7), (x + 5, foot - 7), (x + 5, piston - 4)))
@@ -357,7 +357,7 @@ class Part:
 
     @property
     def definition(self) -> Markup:
-        """The part itself; the style sheet says the font and the ends of lines."""
+        """The part itself; the style sheet sets the font and the ends of lines."""
         return Markup(f'<g id="{self.name}">{draw_layer(self.layer, PAGE_PALETTE)}</g>')
 
 
@@ -411,7 +411,7 @@ Port = tuple[int, int]
 @dataclass(frozen=True, slots=True)
 class Sketch:
     """The small drawing of a model of a catalogue under experiments, made of what the page holds:
-    `parts` are their names, `label` says what is seen; `size` in pixels at scale 1.
+    `parts` are their names, `label` describes the picture; `size` in pixels at scale 1.
     """
 
     size: tuple[float, float]

@@ -1,11 +1,11 @@
-"""The templates, always escaping, and what a page may do, told to the browser
+"""The templates, always escaping, and what a page may do, stated to the browser
 (Content-Security-Policy, https://www.w3.org/TR/CSP3): run the scripts that its template has, be
-drawn by its styles, show pictures that lie beside it. Nothing is fetched from elsewhere, no form is
+drawn by its styles, show pictures in the same folder. Nothing is fetched from elsewhere, no form is
 sent, and what somebody put into a name does not run.
 
 A script is allowed by the hash of what the template wrote between its tags, which a text that came
 through an escape is not. Styles inside of tags are those of figures and tables and come with their
-libraries; they are allowed by the hashes of what stands in the finished page.
+libraries; they are allowed by the hashes of the text in the finished page.
 """
 
 import re
@@ -26,7 +26,7 @@ ATTRIBUTE = re.compile(r' style="([^"]*)"')
 
 
 class Policy:
-    """The policy of one page while its template is rendered; `mark` stands where it will be."""
+    """The policy of one page while its template is rendered; `mark` marks its place."""
 
     mark = "the policy of this page"
 
@@ -76,7 +76,7 @@ def _rule(name: str, sources: Iterable[str]) -> str:
 
 
 def render(template: str, **values: object) -> str:
-    """Text of a template; a whole page says what it may do."""
+    """Text of a template; a whole page states what it may do."""
     policy = Policy()
     return policy.of(environment().get_template(template).render(policy=policy, **values))
 
@@ -90,7 +90,9 @@ def source(template: str) -> str:
 
 @cache
 def environment() -> Environment:
-    """Templates of this package: a missing value is an error, a text is never taken for markup."""
+    """Templates of this package: a missing value is an error, a text is never interpreted as
+    markup.
+    """
     loader = PackageLoader("disting.report")
     the_environment = Environment(
         loader=loader,

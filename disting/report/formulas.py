@@ -1,10 +1,10 @@
 """A chain's formulas, typeset and as LaTeX: its transfer function, what it determines, and its
 maps to other chains.
 
-The transfer function of a damped chain is that of the undamped one with every k_ij replaced by
-κ_ij = k_ij + d_ij s, since a spring and the damper beside it act as one dynamic stiffness. Written
-out in k, d and s, coefficients of 4 masses have a hundred terms and more; in κ they stay readable,
-and nothing is lost.
+The transfer function of a damped chain is that of the undamped one with every k_ij replaced by κ_ij
+= k_ij + d_ij s, since a spring and the damper in parallel act as one dynamic stiffness. Written out
+in k, d and s, coefficients of 4 masses have a hundred terms and more; in κ they stay readable, and
+nothing is lost.
 
 Pages have mathematics as MathML Core (W3C), which browsers typeset without a script.
 
@@ -267,7 +267,7 @@ ROOT = re.compile(r"\((.+) \+ sqrt\((.+)\)\)/\((.+)\)")
 @dataclass(frozen=True, slots=True)
 class Values:
     """Values of another model in those of this one: where these `where` are positive an equation
-    each, and what `root` stands for in them.
+    each, and the meaning of `root` in them.
     """
 
     where: tuple[Markup, ...]

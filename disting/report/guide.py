@@ -5,8 +5,8 @@ there is that of the navigation. The last part is the reference: what is made fr
 there (`disting.report.reference`).
 
 An executed Jupyter notebook is a page too: its words, its code and its outputs. Drawings, tables
-and pictures stand in the page itself; a formula in LaTeX is shown as the plain text beside it,
-because nothing that typesets is loaded.
+and pictures are in the page itself; a formula in LaTeX is shown as its plain text, because nothing
+that typesets is loaded.
 """
 
 import argparse
@@ -145,7 +145,7 @@ def guide_texts() -> dict[str, str]:
 
 
 def _files(ending: str) -> dict[str, str]:
-    """Texts beside the pages, by name."""
+    """Texts next to the pages, by name."""
     return {
         path.name: path.read_text(encoding="utf-8")
         for path in sorted((files("disting") / "guide").iterdir(), key=lambda path: path.name)

@@ -1,11 +1,11 @@
 """The page that leads to the catalogues, and from the description of a machine to its model.
 
-The start page's "Describe your machine" knows the models' indices, what is not told apart over
-positive parameters, and the parts of drawings. A description is any chain under (36) and (37), so
-one that breaks (38) too: the page finds its model by the symmetries that (38) breaks (mirrored free
-row, force and sensor exchanged). Every layer of a drawing depends on the gap, one port, or one
-element and whether there are dampers, never on the number of masses: so each is held once, under a
-name that the page's script can spell.
+The start page's "Describe your machine" knows the models' indices, the pairs that are not
+distinguishable over positive parameters, and the parts of drawings. A description is any chain
+under (36) and (37), so one that breaks (38) too: the page finds its model by the symmetries that
+(38) breaks (mirrored free row, force and sensor exchanged). Every layer of a drawing depends on the
+gap, one port, or one element and whether there are dampers, never on the number of masses: so each
+is held once, under a name that the page's script can spell.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -137,7 +137,7 @@ def _undecided(c: Catalog) -> dict[int, int]:
 
 THUMBNAIL = 168.0  # pixels
 Run = tuple[Ink, int, int, int]
-"""Fields of one colour beside each other: their first column, row, number."""
+"""Adjacent fields of one colour: their first column, row, number."""
 INKS = {Relation.INDISTINGUISHABLE: Ink.INDISTINGUISHABLE, Relation.UNDECIDED: Ink.OPEN}
 
 
@@ -169,8 +169,8 @@ def _runs(catalog: Catalog, high: int) -> Iterator[Run]:
 
 
 def damper_thumbnail(family: DamperFamily) -> Scene:
-    """A triangle with its diagonal: a field that is not blue holds pairs that are not told
-    apart.
+    """A triangle with its diagonal: a field that is not blue holds pairs that are not
+    distinguishable.
     """
     fields = ((INKS[relation], x, y, n) for relation, x, y, n in sorted(runs(family)))
     return staircase(len(family.family), fields)
@@ -192,7 +192,7 @@ def runs(family: DamperFamily) -> Iterator[tuple[Relation, int, int, int]]:
     }
 
     def relation(s: int, t: int) -> Relation:
-        """Of two structures, some of whose sets of dampers are not told apart; of one, two of
+        """Of two structures, some of whose sets of dampers are not distinguishable; of one, two of
         its own sets.
         """
         same = groups[s] & groups[t] if s != t else len(groups[s]) < len(family.sets)
@@ -306,7 +306,7 @@ def damper_card(family: DamperFamily) -> Card:
 
 
 def example(catalogs: Sequence[Catalog]) -> Example | None:
-    """Two chains that look different and cannot be told apart: of three masses where there are
+    """Two chains that look different and cannot be distinguished: of three masses where there are
     any.
     """
     the_catalogs = [c for c in catalogs if c.classes()]

@@ -55,8 +55,8 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Class:
-    """Networks that do the same for almost all values; `parts`: those that do so for special values
-    too; `exact`: whether that is proven of each part, and that no two parts are one.
+    """Networks that are equivalent for almost all values; `parts`: those that are so for special
+    values too; `exact`: whether that is proven of each part, and that no two parts are one.
     """
 
     number: int
@@ -158,8 +158,8 @@ def open_pairs(shown: Listing) -> Iterator[tuple[Card, Card, Relation]]:
 
 
 def ladenheim_page(shown: Listing, *, site: bool = False) -> str:
-    """HTML of the page, from a family of circuits; its page of models lies beside it. `site`:
-    whether the pages of the site do.
+    """HTML of the page, from a family of circuits; its page of models is in the same folder.
+    `site`: whether the pages of the site do.
     """
     the_classes = classes(shown)
     left = [card for card in shown.cards if not is_canonical(card)]

@@ -221,7 +221,7 @@ def _spectrum(panel: "Axes", whole: Real, rate: float) -> None:
 
 
 def _uncertain(panel: "Axes", series: Series, values: Real, low: Real, high: Real) -> None:
-    """Measured points with bars where the data tell their scatter, else with a band."""
+    """Measured points with bars where the data give their scatter, else with a band."""
     points(panel, series, values, label="measured" + (", 95 % bars" if series.has_bars else ""))
     bars(panel, series, values, low, high)
     if not series.has_bars and np.any(high > low):

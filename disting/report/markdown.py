@@ -1,15 +1,15 @@
 """Pages of Markdown as pages of the site.
 
-Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A
-link to another page of the guide, or to a notebook, leads to the rendered page; hard words lead
-to the glossary (page "glossary"); a link that leads elsewhere has no place in the site
-and stays as its words. An image is a drawing (SVG) beside the pages, and becomes a part of the
-page. A block named "picture" holds a model a line, such as `3:1 --damped`, or a network, and is
-shown as their drawings; what follows the name of a chain is for those who read the text, what
-follows a network is said below it.
+Markdown is that of CommonMark, with tables. Markup in a page is text, never passed through. A link
+to another page of the guide, or to a notebook, leads to the rendered page; hard words lead to the
+glossary (page "glossary"); a link that leads elsewhere has no place in the site and stays as its
+words. An image is a drawing (SVG) next to the pages, and becomes a part of the page. A block named
+"picture" holds a model a line, such as `3:1 --damped`, or a network, and is shown as their
+drawings; text after the name of a chain is for readers of the source, text after a network is its
+caption.
 
 Each page of the guide links the first use of a word that a reader may not know to the glossary; a
-page may use such a word only with a link, which a test asks of every page and template.
+page may use such a word only with a link, which a test checks on every page and template.
 """
 
 import re
@@ -242,7 +242,7 @@ def _pictures(lines: Sequence[str]) -> str:
 
 
 def _picture(model: str, said: str = "") -> str:
-    """A chain with its drawing in words; a network with what is said of it."""
+    """A chain with its drawing in words; a network with its caption."""
     if notations_of(model):
         scene = draw_network(network_of(model))
         return _figure(scene, said)
@@ -313,8 +313,8 @@ def _with_anchors(tokens: Sequence[Token]) -> tuple[Section, ...]:
 
 
 def _with_names_of_columns(tokens: Sequence[Token]) -> None:
-    """Give every cell of a wordy table the name of its column, which stands before it where
-    rows are stacked.
+    """Give every cell of a wordy table the name of its column, which is shown before it where rows
+    are stacked.
     """
     table, names = tokens[0], list[str]()
     cells = list[tuple[Token, Token]]()

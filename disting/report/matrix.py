@@ -177,7 +177,7 @@ def slide_name(catalog: Catalog, view: View) -> str:
 
 def slide(catalog: Catalog, view: View) -> Scene:
     """One view in the size of a projector's picture, names and signs as large as the fields allow;
-    title, numbers of pairs and legend stand in the empty corner.
+    title, numbers of pairs and legend are in the empty corner.
     """
     size, (width, height) = len(catalog.family), SLIDE
     cell = min((height - 2 * SLIDE_MARGIN) / size, 40.0)

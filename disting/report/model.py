@@ -1,8 +1,8 @@
-"""A page about one model: its drawing, what its force and sensor cannot tell it from, its transfer
-function, what can be determined.
+"""A page about one model: its drawing, the models that its force and sensor cannot distinguish from
+it, its transfer function, what can be determined.
 
-It speaks of positive parameters, those of a machine; what is so over complex ones, as in the
-paper, is told behind it.
+It covers positive parameters, those of a machine; results over complex ones, as in the paper,
+follow.
 """
 
 from collections import Counter
@@ -57,7 +57,7 @@ class Model:
 
 @dataclass(frozen=True, slots=True)
 class Twin:
-    """A model that some positive parameters, at least, do not tell from this one.
+    """A model that some positive parameters, at least, do not distinguish from this one.
 
     The pair's deep link, its relation as seen from this one, which of them have equivalents on the
     other side, and the explicit map to it.
@@ -128,8 +128,8 @@ def motion_of(catalog: Catalog) -> str:
 
 
 def model_page(catalog: Catalog, number: int) -> str:
-    """HTML of one model; beside it the style sheet of `write_report` is expected. Raises InputError
-    for a number that is no model's.
+    """HTML of one model; in the same folder the style sheet of `write_report` is expected. Raises
+    InputError for a number that is no model's.
 
     >>> from disting.catalogs import catalog
     >>> "Model A2" in model_page(catalog(2, damped=True), 2)
@@ -177,7 +177,7 @@ def model_page(catalog: Catalog, number: int) -> str:
 
 
 def _over_complex(catalog: Catalog, number: int, relation: Relation) -> list[int]:
-    """The models that stand so to this one over complex parameters."""
+    """The models with this relation to this one over complex parameters."""
     others = (n for n in range(1, len(catalog.family) + 1) if n != number)
     return [n for n in others if catalog.relation(number, n, View.EXACT) is relation]
 

@@ -56,10 +56,10 @@ SEEN = {
 
 @dataclass(frozen=True, slots=True)
 class Twin:
-    """A model that is not told from this one for all positive parameters: `said` in a sentence, its
-    `values` in those of this one where formulas are known, and the `command` that gives numbers.
-    `parts`: of the two models, this one first, where they have equivalents in the other one.
-    `special`: what is told of special values, and the equations of these.
+    """A model that is not distinguishable from this one for all positive parameters: `said`: the
+    sentence, its `values` in those of this one where formulas are known, and the `command` that
+    gives numbers. `parts`: of the two models, this one first, where they have equivalents in the
+    other one. `special`: the statement on special values, and the equations of these.
     """
 
     card: Card
@@ -86,8 +86,8 @@ class Part:
 
 
 def listed_model_page(shown: Listing, number: int, *, site: bool = False) -> str:
-    """HTML of one model; beside it the style sheet that `write_model_list` writes is expected.
-    `site`: whether the pages of the site stand around it.
+    """HTML of one model; in the same folder the style sheet that `write_model_list` writes is
+    expected. `site`: whether the pages of the site exist around it.
     """
     listing, card = shown.found, shown.cards[number - 1]
     verdicts = {
@@ -219,7 +219,7 @@ COLUMNS = (
 def write_model_list(shown: Listing, out: Path, *, site: bool = False) -> list[Path]:
     """Write the page of the list, a page for each model, the verdicts over positive parameters as
     CSV and JSON, the models as CSV, and the page on which two of them move, into a folder; `site`:
-    the pages around it, which are written too, stand beside it. Returns the paths.
+    the pages around it, which are written too, are in the same folder. Returns the paths.
     """
     out.mkdir(parents=True, exist_ok=True)
     site, guide = (site or (out / page).is_file() for page in ("index.html", "guide/index.html"))
@@ -279,7 +279,7 @@ def page_name(path: Path) -> str:
 
 
 def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) -> str:
-    """HTML of the page; `site`, `guide`: whether these pages stand beside it."""
+    """HTML of the page; `site`, `guide`: whether these pages are in the same folder."""
     listing, count = shown.found, len(shown.cards)
     n_pairs = count * (count - 1) // 2
     data = payload(

@@ -5,9 +5,9 @@ both motions and both Bode diagrams (templates motion-*.js). It is given what it
 the models, the verdicts over positive parameters, and the parts of the drawings.
 
 Two machines of a list have such a page where all are made of masses, springs and dampers: trees and
-loops as chains. Masses move to the left and to the right, and stand in columns by their distance
-from the force; two of a column that are joined are half a column apart. Their rows are those in
-which the fewest joints cross or pass a third mass.
+loops as chains. Masses move to the left and to the right, and are in columns by their distance from
+the force; two of a column that are joined are half a column apart. Their rows are those in which
+the fewest joints cross or pass a third mass.
 """
 
 from cmath import phase
@@ -57,7 +57,7 @@ def motion_page(catalog: Catalog) -> str:
 
 
 def first_pair(catalog: Catalog) -> tuple[int, int]:
-    """The pair that is shown first: two that cannot be told apart, where there are any.
+    """The pair that is shown first: two that cannot be distinguished, where there are any.
 
     >>> from disting.catalogs import catalog
     >>> first_pair(catalog(3, damped=True))
@@ -111,7 +111,7 @@ def _payload(catalog: Catalog, first: tuple[int, int]) -> Markup:
 
 def _able(catalog: Catalog) -> list[tuple[int, int, Share]]:
     """(given, other, share): how many positive models of `number` have a positive equivalent in
-    `other`, of the pairs that are neither always nor never told apart.
+    `other`, of the pairs that are distinguishable for some parameters only.
     """
     pairs = [(case.given, case.other, case.share) for case in one_sided_pairs(catalog)]
     for low, high in catalog.depending():
@@ -163,7 +163,7 @@ def machine_of(model: AnyModel) -> Network | None:
 
 
 def motion_page_of(shown: Listing, *, site: bool = False) -> str:
-    """HTML of the page; `site`: whether start page and guide stand beside it."""
+    """HTML of the page; `site`: whether start page and guide are in the same folder."""
     listing, groups = shown.found, shown.found.classes(View.POSITIVE)
     machines = [m for m in map(machine_of, listing.family) if m is not None]
     payload = {
@@ -298,7 +298,7 @@ def _joined(machine: Network) -> list[tuple[int, int]]:
 
 
 def _columns(machine: Network) -> dict[int, float]:
-    """By distance from the force; what is not joined to it stands behind the rest."""
+    """By distance from the force; unconnected masses come last."""
     joined, entries = _joined(machine), dict[int, float]()
     starts = [i for p in machine.ports for i in (p.plus, p.minus) if i]
     for start in (*starts, *machine.nodes):

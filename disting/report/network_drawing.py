@@ -2,7 +2,7 @@
 compartments with arrows, circuits in series and parallel as circuit diagrams, other circuits as
 graphs.
 
-A graph has nodes with what joins them, ground, forces and sensors. Nodes stand in columns by their
+A graph has nodes with what joins them, ground, forces and sensors. Nodes are in columns by their
 distance from the force (the port, the input), so that no joint passes a node of a column between
 its ends; a column in which a joint passes a third node is bent. What hangs at one node, a joint to
 the ground, a force or a sensor, and every name takes the place round its node or joint where it
@@ -50,7 +50,7 @@ TERMINAL = 16.0
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """An element, or parts "in series" or "in parallel"; `first`: where its first element stands in
+    """An element, or parts "in series" or "in parallel"; `first`: the place of its first element in
     the network.
     """
 
@@ -257,8 +257,8 @@ def graph_layers(network: Network) -> list[Layer]:
 
 
 def _places(network: Network) -> dict[int, Place]:
-    """Where the nodes stand: column after column by their distance from the first input, a part
-    that is not connected with it behind it.
+    """Places of the nodes: column after column by their distance from the first input, a part that
+    is not connected with it behind it.
     """
     kept = network.nodes if network.sort is not Sort.CIRCUIT else (*network.nodes, 0)
     members = {i for e in network.elements for i in e.nodes} | {
@@ -347,7 +347,7 @@ def _element(e: Element, track: Track) -> tuple[Shape, ...]:
 
 
 def _names(e: Element, track: Track, aside: float) -> Iterator[Text]:
-    """Where the name of an element can stand: outside first, beside its middle, then elsewhere."""
+    """Where the name of an element can be: outside first, next to its middle, then elsewhere."""
     said = f"{e.value} *{e.ratio}" if e.ratio else e.value
     outer = -1.0 if aside <= 0 else 1.0
     for shift in (0.0, -0.1, 0.1, -0.2, 0.2, -0.3, 0.3):
@@ -357,7 +357,7 @@ def _names(e: Element, track: Track, aside: float) -> Iterator[Text]:
 
 
 def _beside(said: str, track: Track, along: float, side: float, away: float) -> Text:
-    """A text beside a track, which begins or ends there unless the track is nearly level."""
+    """A text next to a track, which begins or ends there unless the track is nearly level."""
     x, y = track.at(along, side * away)
     x0, _ = track.at(along)
     _, uy = track.direction

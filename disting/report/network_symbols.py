@@ -1,7 +1,7 @@
 """Signs of the elements of networks, each drawn along a straight track between any two points.
 
-A sign stands in the middle of its track; the rest of the track is a plain line. The kinds are those
-of `disting.network.network`; a kind without a sign here is a box.
+A sign is in the middle of its track; the rest of the track is a plain line. The kinds are those of
+`disting.network.network`; a kind without a sign here is a box.
 """
 
 from collections.abc import Callable, Iterable, Sequence

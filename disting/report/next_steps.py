@@ -1,6 +1,6 @@
 """Next measurements on pages: of a model, of a pair and of a whole group.
 
-What is told is what `disting next` tells, with its default costs.
+The content is that of `disting next`, with its default costs.
 """
 
 from collections.abc import Iterable, Iterator
@@ -20,8 +20,8 @@ from disting.verdict.result import View
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """One experiment at one mass: whether it surely tells the structure apart, in words, and drawn
-    where there is anything to be seen.
+    """One experiment at one mass: whether it certainly distinguishes the structure, in words, and a
+    drawing where the item gives information.
     """
 
     sure: bool
@@ -77,7 +77,7 @@ def for_pairs(catalog: NextCatalog | None) -> dict[str, str]:
 
 
 def sketches_for_pairs(catalog: NextCatalog | None) -> dict[str, list[Sketch]]:
-    """The drawings beside these sentences: for either model the cheapest sets that are surely
+    """The drawings next to these sentences: for either model the cheapest sets that are surely
     enough, else the one that leaves least.
     """
     sketches: dict[str, list[Sketch]] = {}

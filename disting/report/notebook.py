@@ -2,8 +2,8 @@
 on a new figure; and a chain as formulas or numbers. Lists of models and networks have tables too:
 candidates before a fit, what is the same, which explain a measurement.
 
-The rooms below ask for it as `disting.model.presentation.Presenter`, which `Notebook` is. Each
-piece of HTML is complete in itself, without a style sheet, in the notebook's own colours wherever a
+The rooms below access it as `disting.model.presentation.Presenter`, which `Notebook` is. Each piece
+of HTML is complete in itself, without a style sheet, in the notebook's own colours wherever a
 colour means nothing.
 """
 
@@ -86,7 +86,7 @@ FILLS = {
     Relation.SOMETIMES: (Ink.SOMETIMES, Ink.ON_SOMETIMES, "≈"),
     Relation.UNDECIDED: (Ink.UNDECIDED, Ink.PAPER, "?"),
 }
-"""Ground, letter and sign of a relation: the colours of the pages, and a sign beside them."""
+"""Ground, letter and sign of a relation: the colours of the pages, and a sign."""
 
 
 def block(*parts: str) -> str:
@@ -110,7 +110,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> Markup:
 
 
 def facts(rows: Iterable[tuple[str, object]]) -> Markup:
-    """Names and what they are; those without are left out."""
+    """Names and their values; those without are omitted."""
     body = Markup("").join(
         Markup("<tr><th>{}</th>{}</tr>").format(name, _cell(value)) for name, value in rows if value
     )
@@ -506,7 +506,7 @@ def _plot_response(shown: FrequencyResponse, ax: Any, style: Style) -> "tuple[Ax
 
 @drawn_on.register(Selection)
 def _plot_selection(shown: Selection, ax: Any, style: Style) -> "tuple[Axes, ...]":
-    """Measured lines as dots, structures as lines, whose phases stay beside those of the dots."""
+    """Measured lines as dots, structures as lines, whose phases stay close to those of the dots."""
     seen = shown.test
     dots = {"linestyle": "none", "marker": ".", "color": "0.55", "label": "measured"}
     panels = _plot_response(seen, ax, dots)
@@ -579,7 +579,7 @@ def _pyplot() -> Any:
 
 
 class Notebook:
-    """Draws what a notebook asks for; it keeps nothing."""
+    """Draws what a notebook requests; it keeps nothing."""
 
     def html(self, shown: Any, /) -> str:
         """The object as a piece of an HTML page; raises TypeError for what has none."""

@@ -1,8 +1,8 @@
 """A catalogue as one HTML page that needs nothing else.
 
 The verdicts are drawn by the page's script from a compact payload: below the diagonal one view,
-above it another. What the drawing shows is said in text too: by the field under the cursor, by the
-panel of a pair, and by the table of groups.
+above it another. The content of the drawing is given in text too: by the field under the cursor, by
+the panel of a pair, and by the table of groups.
 
 A page with what to measure next for all groups of a catalogue.
 """
@@ -55,7 +55,9 @@ BELOW, ABOVE = VIEWS  # shown first
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """A group of structures, drawn, what tells all of them apart, and the advice for each."""
+    """A group of structures, drawn, the experiments that distinguish all of them, and the advice
+    for each.
+    """
 
     drawings: tuple[Drawing, ...]
     summary: str
@@ -113,7 +115,7 @@ class Count:
 
 
 def page(catalog: Catalog, *, beside: Families | None = None) -> str:
-    """HTML of a catalogue; `beside`: the pages of pairs beside it (see `families`).
+    """HTML of a catalogue; `beside`: the adjacent pages of pairs (see `families`).
 
     >>> from disting.catalogs import catalog
     >>> page(catalog(2, damped=True))[:15]

@@ -5,11 +5,11 @@ Pair (low, high) is entry (high - 1)(high - 2)/2 + low - 1 of a view, that is ro
 triangle. A sentence names the models {L} and {R}, so that pairs decided alike share it. Equal
 neighbours are counted (`pack`).
 
-Pages tell of a catalogue, over positive and over complex parameters, counts, groups, and the order
+Pages show of a catalogue, over positive and over complex parameters, counts, groups, and the order
 by groups. Over complex parameters indistinguishable models form classes. Over positive ones a class
 may fall apart: into smaller groups, which are indistinguishable for all positive parameters, and
-pairs between them that are so for some values only, or that are open. Such groups stand beside each
-other in the order by groups.
+pairs between them that are so for some values only, or that are open. Such groups are adjacent in
+the order by groups.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -56,8 +56,7 @@ class Over:
     one-sided ones.
 
     `aside`: the pairs of a group of which the verdict leaves special values aside. `blocks`: the
-    groups and single models that the order by groups puts first, related ones beside
-    each other.
+    groups and single models that the order by groups puts first, related ones adjacent.
     """
 
     view: View
@@ -190,8 +189,8 @@ def payload(
     aside: Callable[[int, int, View], str] = lambda low, high, view: "",
     **more: object,
 ) -> Markup:
-    """JSON text that is safe inside a script element: the views, groups by domain, and what
-    else the script is to know; `what` is measured of the models, `aside` says more of a pair.
+    """JSON text that is safe inside a script element: the views, groups by domain, and further data
+    for the script; `what` is measured of the models, `aside` adds a note on a pair.
     """
     texts, entries, known = Pool(), Pool(), dict[object, int]()
 

@@ -1,4 +1,4 @@
-"""Scene to PNG with Pillow: drawn larger than asked and reduced, which smooths the edges.
+"""Scene to PNG with Pillow: drawn larger than requested and reduced, which smooths the edges.
 
 The letters are Pillow's own scalable font, so that no font has to be installed; it knows ASCII
 only.

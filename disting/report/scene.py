@@ -126,7 +126,7 @@ class Text:
 
     @property
     def baseline(self) -> float:
-        """y of the line on which the letters stand."""
+        """y of the line of the baseline."""
         return self.y + 0.35 * self.size
 
 
@@ -191,7 +191,7 @@ MARGIN = 8.0  # around shapes that stand anywhere
 
 
 def frame(layers: Iterable[Layer], title: str) -> Scene:
-    """A scene of shapes that stand anywhere: moved so that all lie in it, with a margin."""
+    """A scene of shapes at any place: moved so that all lie in it, with a margin."""
     drawn = tuple(layers)
     boxes = [extent(shape) for layer in drawn for shape in layer.shapes]
     left, top = (min(box[i] for box in boxes) - MARGIN for i in (0, 1))

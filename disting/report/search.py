@@ -1,4 +1,4 @@
-"""The search over the whole site: an index and the code that asks it, in one script.
+"""The search over the whole site: an index and the code that queries it, in one script.
 
 Pages load it when somebody begins to search, as a script and not as data, since a page that is
 opened from a folder may load no data.

@@ -66,8 +66,8 @@ class Between:
 
 @dataclass(frozen=True, slots=True)
 class Outside:
-    """Why smaller models do not lie in larger ones, or why that is not known, and the pairs of
-    which it is so.
+    """Reason why smaller models are not contained in larger ones, or why that is unknown, and its
+    pairs.
     """
 
     why: str
@@ -86,7 +86,7 @@ class Size:
 
 
 def sizes_page(catalog: SizesCatalog, *, beside: Families | None = None) -> str:
-    """HTML of models of several sizes; `beside`: the pages of pairs beside it (see `families`)."""
+    """HTML of models of several sizes; `beside`: the adjacent pages of pairs (see `families`)."""
     pages = families([], across=[catalog]) | dict(beside or {})
     counts, domains = list(between(catalog)), [over(catalog, view) for view in VIEWS]
     drawings = [Drawing(number, draw(chain)) for number, chain in enumerate(catalog.family, 1)]
@@ -193,8 +193,8 @@ def _masses(name: str) -> int:
 
 
 def _reason(verdict: Verdict) -> str:
-    """Why one is a limit of the other, why neither is, or why it is not known; {L} and {R} stand
-    for the names. "" where there is nothing to say.
+    """Why one is a limit of the other, why neither is, or why it is not known; {L} and {R} denote
+    the names. "" where there is no statement.
 
     Models of equal rank have no evidence of their own, because limits with fewer poles have a
     smaller one.

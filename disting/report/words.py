@@ -1,5 +1,5 @@
-"""The wording that pages and figures share, and what it asks of models that were compared in pairs:
-a Protocol that a catalogue and a list of general models implement, models counted from 1.
+"""The wording that pages and figures share, and what it needs of models that were compared in
+pairs: a Protocol that a catalogue and a list of general models implement, models counted from 1.
 """
 
 import re

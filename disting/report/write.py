@@ -1,5 +1,5 @@
-"""Writes the report of some catalogues into a folder: a small site of pages, and figures and
-data beside them.
+"""Writes the report of some catalogues into a folder: a small site of pages, with figures and
+data.
 """
 
 import argparse
@@ -65,8 +65,8 @@ def of_sizes(site: Site, damped: bool) -> Iterator[File]:
 
 @dataclass(frozen=True, slots=True)
 class SitePage:
-    """A page that the index leads to, beside those of the catalogues, once it lies in the folder:
-    `files` gives its files; those of a page without any are written by another command.
+    """A page that the index leads to, in addition to those of the catalogues, once it lies in the
+    folder: `files` gives its files; those of a page without any are written by another command.
     """
 
     link: Link
@@ -174,9 +174,9 @@ def write_report(
 
 
 def _pages(site: Site) -> Iterator[File]:
-    """The pages of what a site is written from, with the files beside them; those of the largest
-    catalogue first, whose figure takes most memory. What a catalogue remembers of its verdicts is
-    let go with its pages.
+    """The pages of what a site is written from, with their files; those of the largest catalogue
+    first, whose figure takes most memory. What a catalogue remembers of its verdicts is let go with
+    its pages.
     """
     for c in sorted(site.catalogs, key=lambda c: len(c.family), reverse=True):
         yield from _files(c, site.pages)

@@ -289,7 +289,7 @@ def _record(
     bench: Bench,
     sensor: tuple[int, ...],
 ) -> TimeSeries:
-    """One record; `sensor` tells the noise of several outputs of one experiment apart."""
+    """One record; `sensor` separates the noise of several outputs of one experiment."""
     values = check_values(model, parameters)
     period = excitation.period(bench.samples, bench.sampling_rate, bench.seed)
     output = _output(model, values, period, bench)

@@ -12,9 +12,9 @@ masses, springs and dampers behind a lag and a dead time.
 Motion with Coulomb friction is computed by a fixed-step Runge-Kutta integration of fourth order.
 
 M x'' + D x' + K x = e_act f(t) - c tanh(v / v_s) - b v for each mass with friction, where tanh
-stands for the sign (v_s = speed below which the friction is not fully there), so that the right
-side is smooth and the integration converges. Dead time and lag act on the force alone, before it
-reaches the masses; the force is a trigonometric polynomial, known at every instant.
+replaces the sign (v_s = speed below which the friction is not fully there), so that the right side
+is smooth and the integration converges. Dead time and lag act on the force alone, before it reaches
+the masses; the force is a trigonometric polynomial, known at every instant.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -93,7 +93,7 @@ class Form:
 
 def form_of(model: AnyModel) -> Form:
     """The form of a chain, its structure, or a network with one input and one output; of a circuit
-    without what is not seen, as its potentials are known but for a constant. Raises InputError.
+    without unobservable parts, as its potentials are known up to a constant. Raises InputError.
     """
     if isinstance(model, Network):
         if model.shape != (1, 1):
@@ -163,8 +163,8 @@ def port_vectors(model: AnyModel) -> tuple[Real, Real]:
 
 
 def motion(powers: Powers, force: Real, omega: Real) -> Complex:
-    """Positions of all masses per force, or what stands for them, shape (n_f, N), at omega [rad/s],
-    shape (n_f,); raises InputError at a pole.
+    """Positions of all masses per force, or the quantities in their place, shape (n_f, N), at omega
+    [rad/s], shape (n_f,); raises InputError at a pole.
     """
     s = 1j * np.asarray(omega, dtype=np.float64)[:, None, None]
     try:

@@ -1,5 +1,5 @@
-"""Covariance C of the residuals of a fit: what the lines scatter by, what the model misses beside,
-and how both hang together.
+"""Covariance C of the residuals of a fit: the scatter of the lines, the misfit of the model in
+addition, and the correlation of both.
 
     C_ij = sigma_i sigma_j r^|i-j|  for amplitudes of lines i and j, and likewise for phases; none
                                     between both.

@@ -1,20 +1,21 @@
 """Gains of fit that rest on single lines.
 
-A mass that is small beside the others, on a spring that resonates with hardly any damping, changes
-the response at its resonance alone. Narrower than the distance of two lines, it has the parameters
-(frequency, size, damping) to fit one line exactly, or two neighbouring ones in part, whatever they
-are. By Gaussian noise the largest gain at one of n lines is that of the largest |r_k|^2, which is
-above 2 ln(n / alpha) with probability alpha, and the test of exclusion allows for that. It does not
-allow for what benches do besides: a disturbance of one line, the foot of a resonance that the model
-of the actuator misses by a little. Such a gain has no bound, and no other line confirms it.
+A mass that is small compared with the others, on a spring that resonates with hardly any damping,
+changes the response at its resonance alone. Narrower than the distance of two lines, it has the
+parameters (frequency, size, damping) to fit one line exactly, or two neighbouring ones in part,
+whatever they are. By Gaussian noise the largest gain at one of n lines is that of the largest
+|r_k|^2, which is above 2 ln(n / alpha) with probability alpha, and the test of exclusion allows for
+that. It does not allow for what benches do besides: a disturbance of one line, the foot of a
+resonance that the model of the actuator misses by a little. Such a gain has no bound, and no other
+line confirms it.
 
-A gain must therefore be seen by more lines than the element can fit by itself. With r_A, r_B the
-residuals of a structure and of one that contains it, and g_k = |r_A,k|^2 - |r_B,k|^2 of line k, the
-two neighbouring lines with the largest g_k + g_k+1 are left out. Without their rows T of the test
-of exclusion must still exceed what as many parameters as B has beyond A yield by chance, and the
-costs must still differ by the share of it that the test asks for. A lag, a damper, a resonance that
-several lines see lose little by that; an element that fits one line has nothing left. Where several
-responses are fitted, the lines at these two frequencies are left out of all.
+A gain must therefore be supported by more lines than the element can fit by itself. With r_A, r_B
+the residuals of a structure and of one that contains it, and g_k = |r_A,k|^2 - |r_B,k|^2 of line k,
+the two neighbouring lines with the largest g_k + g_k+1 are left out. Without their rows T of the
+test of exclusion must still exceed what as many parameters as B has beyond A yield by chance, and
+the costs must still differ by the share of it that the test requires. A lag, a damper, a resonance
+supported by several lines lose little by that; an element that fits one line has nothing left.
+Where several responses are fitted, the lines at these two frequencies are left out of all.
 
 If B rests on single lines it is not selected and excludes nothing: these data do not show what it
 adds.
@@ -60,7 +61,7 @@ def lone_lines(
 
     `residual`, `other`: whitened residuals of the structure that is excluded and of the one that
     excludes, shape (n_y,); `omega`: frequency of each of them [rad/s], shape (n_y,). `is_shown`:
-    says if the residuals that are kept, shape (n_y,), still exclude.
+    decides if the residuals that are kept, shape (n_y,), still exclude.
 
     >>> omega = np.tile(np.arange(1.0, 9.0), 2)
     >>> one, spread = np.ones(16), np.ones(16)

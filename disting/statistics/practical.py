@@ -3,7 +3,7 @@ what they leave unsaid.
 
 S is the sensitivity matrix, shape (n_y, n_p), at the optimum, columns multiplied by the parameters
 (Delta p_j = p_j). A scaling of columns changes neither collinearity nor condition indices, which
-see columns of unit length.
+use columns of unit length.
 """
 
 from collections.abc import Iterator, Sequence
@@ -25,7 +25,7 @@ LOST = 1e-6
 
 
 class NoiseModel(Protocol):
-    """Noise as standard errors see it."""
+    """Noise as standard errors use it."""
 
     def seen(self, columns: Real) -> Real:
         """F' columns, with C = F F', shape (n_y, n)."""
@@ -107,7 +107,7 @@ class Practical:
 
     `importance` (16) and `relative_errors` (standard errors divided by the parameters, 0.01 = 1 %)
     by parameter; `condition_indices` rising; `worst_direction`: the combination of logarithms of
-    parameters that the data determine least. `unidentifiable` says what is determinable where no
+    parameters that the data determine least. `unidentifiable` states what is determinable where no
     data at all determine every parameter, else "".
     """
 
@@ -231,8 +231,8 @@ class Thresholds:
         """Why a candidate is excluded; nothing if it is admissible. What is not a number violates
         every threshold.
 
-        Structural unidentifiability excludes at any threshold, and is said instead of the infinite
-        indices that follow from it.
+        Structural unidentifiability excludes at any threshold, and is reported instead of the
+        infinite indices that follow from it.
         """
         along = ", ".join(assessment.worst_direction)
         least = max(assessment.importance.values(), default=0.0) / self.importance_ratio

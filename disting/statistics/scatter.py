@@ -16,12 +16,12 @@ ln |G| and of arg G of line k (0.01 = 1 %, 0.01 rad). What is known of it is put
   not say how many repeats it has tells nu by how much ln s_k^2 jumps from line to line. The
   variance of a distortion that the data show is added (`disting.measurement.distortion`).
 
-Repeats of one excitation do not see what it makes itself: distortion by friction and play, and the
-steps of an encoder, repeat with it, and jump from line to line. Nor do they see that a machine
-changes between two measurements. Both are found where the data scatter more than sigma allows
-(F test), and added as a relative variance tau^2 that makes them agree (R. Paule, J. Mandel,
-Consensus values and weighting factors, 1982), or as the sources of a bench where these describe
-the jumps far better.
+Repeats of one excitation do not show the effects of the machine itself: distortion by friction and
+play, and the steps of an encoder, repeat with it, and jump from line to line. Nor do they show that
+a machine changes between two measurements. Both are found where the data scatter more than sigma
+allows (F test), and added as a relative variance tau^2 that makes them agree (R. Paule, J. Mandel,
+Consensus values and weighting factors, 1982), or as the sources of a bench where these describe the
+jumps far better.
 
 The variance of the lines of a bench, as a sum of few sources.
 
@@ -32,15 +32,15 @@ Coefficients are not negative and maximise the gamma likelihood of observed powe
 mu_i = sum_k C_ik sigma_k^2: sum ln mu_i + q_i / mu_i (restricted maximum likelihood, where these
 are contrasts free of the parameters of a model: H. D. Patterson, R. Thompson, 1971).
 
-What neighbouring lines tell of the scatter of a line: pure error, which no model explains.
+Scatter of a line from its neighbours: pure error, which no model explains.
 
 A local quadratic through the six nearest lines predicts each line k of R = G / G_fit,
 
     e_k = R_k - sum_j h_kj R_j,    E |e_k G_fit,k|^2 = sum_j C_kj sigma_j^2,
     C_kj = (delta_kj + h_kj^2) |G_fit,k / G_fit,j|^2,
 
-sigma_j^2 = E |noise of G_j|^2. Division by a fitted response takes bends of resonances away; one by
-a wrong response adds bends and takes no scatter away, so of several the smallest result counts.
+sigma_j^2 = E |noise of G_j|^2. Division by a fitted response removes bends of resonances; one by a
+wrong response adds bends and removes no scatter, so of several the smallest result counts.
 """
 
 from collections.abc import Callable, Sequence
@@ -71,8 +71,8 @@ SMALLEST = 1e-3  # of the mean of neighbours at which weights stop growing
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contrasts:
-    """`power` = |e_k G_fit,k|^2, shape (n_f,); `at` = which lines each sees, itself first, and
-    `weight` = C of these, shape (n_f, 7) each; `size` = |G_fit|, shape (n_f,).
+    """`power` = |e_k G_fit,k|^2, shape (n_f,); `at` = the lines of each, itself first, and `weight`
+    = C of these, shape (n_f, 7) each; `size` = |G_fit|, shape (n_f,).
     """
 
     power: Real
@@ -133,7 +133,7 @@ def freedom(omega: Real) -> float:
 def sources(omega: Real, size: Real, order: int, drive: Real | None = None) -> Real:
     """Shapes of the variances over the lines, shape (n_f, 4), of |G| = `size` of a sensor of this
     order (2: acceleration), each with mean 1; `drive` = amplitude of the input, where it is known:
-    what is measured beside a weak line counts for more.
+    leakage next to a weak line counts for more.
     """
     x = omega / np.exp(np.mean(np.log(omega)))
     shapes = np.stack([size**2, *(x ** (2.0 * (order - n)) for n in range(3))], axis=1)
@@ -143,8 +143,8 @@ def sources(omega: Real, size: Real, order: int, drive: Real | None = None) -> R
 
 
 def quietest(mean: Real, power: Real) -> Real:
-    """The coefficients of most powers: those are left out that are far above what the lower quarter
-    tells, as many as they be, such as where a response bends.
+    """The coefficients of most powers: those far above the lower quarter are omitted, whatever
+    their number, such as where a response bends.
     """
     values = coefficients(mean, power)
     for _ in range(ROUNDS):
@@ -362,7 +362,7 @@ def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Compl
 
 
 def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Scatter:
-    """With what neighbouring lines say of standard deviations."""
+    """Standard deviations checked by neighbouring lines."""
     lines_free = freedom(measured.omega)
     level = _excess(seen, variance) + 1
     if level > f_distribution.isf(SURE, lines_free, own.freedom):

@@ -61,8 +61,8 @@ def _processes(jobs: int) -> Iterator[Executor]:
     """Spawned workers: they share nothing with this process, so no lock or connection can be
     inherited half-way.
 
-    Ctrl-C ends them at once and without a word; this process tells of it. However this process
-    ends, they end with it.
+    Ctrl-C ends them at once and silently; this process reports it. However this process ends, they
+    end with it.
     """
     with (
         _quiet_about_cancelled_work(),
@@ -78,7 +78,7 @@ def _processes(jobs: int) -> Iterator[Executor]:
 
 class _Pool(ProcessPoolExecutor):
     """Starts workers that do not hear Ctrl-C before they are prepared for it: one that is still
-    importing would tell of it with a traceback.
+    importing would report it with a traceback.
     """
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
@@ -102,8 +102,8 @@ def _prepare_worker() -> None:
 
 
 def _end_with_parent() -> None:
-    """A killed parent cannot tell its workers to stop; they would wait for tasks for ever. Its
-    end is seen on a pipe.
+    """A killed parent cannot tell its workers to stop; they would wait for tasks for ever. Its end
+    is detected on a pipe.
     """
     parent = parent_process()
     if parent is not None:

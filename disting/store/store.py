@@ -1,9 +1,9 @@
 """Content-addressed store of computed results, kept in one SQLite file.
 
 A wrong answer is the worst fault of a scientific cache, so nothing in the file is believed without
-proof: the file is ours only if application id, schema version and table definition agree, and a
-row is used only if its checksum over key and value agrees. What fails is set aside or removed, and
-computed anew.
+proof: the file is ours only if application id, schema version and table definition agree, and a row
+is used only if its checksum over key and value agrees. What fails is set aside or removed, and
+computed again.
 
 Two POSIX traps: closing any descriptor of a file drops all locks that the process has on it, so
 the file is read through SQLite only. And a child of fork inherits SQLite's record of locks but not
@@ -13,7 +13,7 @@ before every fork.
 The path of the file holds either nothing or a complete database: a new one is made under another
 name and renamed into place under an advisory lock, so a process killed at any moment leaves no
 half-made file, and of many processes that find the same damage one alone replaces the file. The
-others see by the inode number that the path holds another file, and open that one.
+others detect by the inode number that the path holds another file, and open that one.
 
 A key holds a digest of the code that a result depends on, found from the imports, with the versions
 of the libraries it uses. A key that names too little code serves a stale result after a change; so
@@ -243,7 +243,7 @@ def _was_ours(path: str) -> bool:
     """Return True if the path holds a damaged cache, not some file of the user's that was named by
     mistake.
 
-    Our caches bear a stamp, and have a lock beside them from the moment they are made. The file is
+    Our caches bear a stamp, and have a lock next to them from the moment they are made. The file is
     read only here, where it could not be used: to close it would drop the locks on one that is in
     use.
     """
@@ -481,7 +481,7 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         return self._connection
 
     def _recover(self, error: Exception, deadline: float, repaired: bool) -> bool:
-        """Prepare another attempt, or switch the store off; tells whether a repair has been
+        """Prepare another attempt, or switch the store off; returns True if a repair has been
         made.
         """
         self._disconnect()

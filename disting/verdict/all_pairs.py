@@ -2,7 +2,7 @@
 share its bucket.
 
 A necessary condition decides every pair of models in different buckets at once, by one comparison
-of two columns of numbers; only pairs that share all buckets are looked at one by one.
+of two columns of numbers; only pairs that share all buckets are compared one by one.
 """
 
 from collections.abc import Callable, Hashable, Sequence
@@ -45,7 +45,7 @@ def decisions(
     apart: Sequence[int] = (),
 ) -> Decisions:
     """Decide all pairs of models, of any sizes, but for those of two models in the places `apart`;
-    the two callbacks compute what will be asked for.
+    the two callbacks compute what will be needed.
     """
     n = len(subjects)
     result = Decisions(

@@ -60,7 +60,7 @@ class Buckets:
 
     def renamed(self, bucket: Sequence[int]) -> Iterator[tuple[int, int]]:
         """Yield pairs of models of one bucket that are renamings of each other: models of equal
-        colours are looked at, each beside the first of them.
+        colours are compared, each with the first of them.
         """
         prints: dict[str, int] = {}
         for i in bucket if len(bucket) > 1 else ():

@@ -86,8 +86,8 @@ def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | 
 
 def follows(v: Verdict, evidence: Evidence, query: Query) -> bool:
     """Return True if evidence of this kind proves this relation, by a rule of this kind, over this
-    domain, and the query allows it to decide. Over real and positive parameters equality is shown
-    by the rule that asks for such; a difference over complex ones is one there too.
+    domain, and the query allows it to decide. Over real and positive parameters equality is proven
+    by the rule for these; a difference over complex ones is one there too.
     """
     rule, at = RULES[v.decided_by], v.representation
     carrier = {EXACT: Carrier.EXACT, ADMISSIBLE: Carrier.ADMISSIBLE}.get(rule, Carrier.CONDITION)
@@ -125,8 +125,8 @@ def said_of(share: PositiveFinding, image: Inclusion) -> PositiveFinding | None:
 def with_inclusion(
     verdict: Verdict, equal_rank: bool, finding: Callable[[], Inclusions]
 ) -> Verdict:
-    """The verdict over complex parameters with its inclusion; of unequal rank the finding tells
-    it.
+    """The verdict over complex parameters with its inclusion; for unequal rank it is that of the
+    finding.
     """
     if verdict.relation is Relation.UNDECIDED:
         return verdict

@@ -28,8 +28,8 @@ Claimed = tuple[Certainty | None, int, Evidence | None]
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """One verdict of a file: what was asked, of what, that over complex parameters if it is told
-    beside it, and where it stands.
+    """One verdict of a file: the question, the models, the verdict over complex parameters if it is
+    stored too, and its place.
     """
 
     verdict: Verdict
@@ -90,7 +90,7 @@ def _again(claim: Claim, evidence: Evidence) -> Claimed | None:
 
 
 def _text(evidence: Evidence) -> str:
-    """All of it but what differs from processor to processor and is looked at by itself."""
+    """All of it but what differs from processor to processor and is checked separately."""
     return without_digits(json.dumps(evidence.to_dict()))
 
 
@@ -129,7 +129,7 @@ def _false_inclusions(claim: Claim) -> Iterator[str]:
 
 def false_of_inclusions(both: Inclusions | None, left: AnySide, right: AnySide) -> Iterator[str]:
     """Yield what evidence of an inclusion is not true of both models; what is no limit has no
-    equivalent either, by the same evidence, which is looked at once.
+    equivalent either, by the same evidence, which is checked once.
     """
     statements = (
         {}

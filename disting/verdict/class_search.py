@@ -62,8 +62,8 @@ def classes(
     `QUICKLY` leaves open. Of what is `settled`, pairs with a chain that is not here are passed
     over.
 
-    Raises InputError for chains that differ in size, sensor or dampers beside the springs, or that
-    have a dead time.
+    Raises InputError for chains that differ in size, sensor or dampers in parallel with the
+    springs, or that have a dead time.
     """
     if len({(c.n_masses, c.quantity, c.damped) for c in chains}) != 1 or any(
         c.dead_time for c in chains

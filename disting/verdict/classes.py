@@ -12,7 +12,7 @@ pair is looked up.
 The relation of a pair is that of `compare`, wherever that is found here; what is open here
 `compare` may still decide with more time. So is the rule, but for two cases: a pair whose models
 are linked by a chain of rules of different kinds, and one that is separated by ranks of 1/G (see
-`behaviour.profile`), is said to be decided by the exact decision.
+`behaviour.profile`), is reported as decided by the exact decision.
 """
 
 from collections import Counter

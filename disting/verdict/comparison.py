@@ -4,9 +4,9 @@ several together.
 
 Raises bounded verdicts to proven ones where exact elimination ends in time.
 
-A verdict by condition 4 or 5 says that a set of invariants has rank k in one model and more in the
-other. The larger rank is proven already (a minor that is not zero somewhere is not zero); that the
-smaller one is k at most is proven by elimination over the polynomials.
+A verdict by condition 4 or 5 states that a set of invariants has rank k in one model and more in
+the other. The larger rank is proven already (a minor that is not zero somewhere is not zero); that
+the smaller one is k at most is proven by elimination over the polynomials.
 """
 
 from collections.abc import Iterator, Sequence
@@ -84,7 +84,7 @@ def prove_again(verdict: Verdict, left: AnySide, right: AnySide, seconds: float)
 def prove_all(
     decided: Decisions, seconds: float = SECONDS, progress: Progress = silent
 ) -> Decisions:
-    """The decisions, with those marked that can be proven in time; each claim is looked at once."""
+    """The decisions, with those marked that can be proven in time; each claim is checked once."""
     claims = dict(_claims(decided))
     different = list(dict.fromkeys(claims.values()))
     holds: dict[Claim, bool] = {}
@@ -153,12 +153,11 @@ def compare(
     once it is there).
 
     Chains are also named: "3:1+b2", "A4" of as many masses as the other one has; `damped` and
-    `quantity` (of the sensor: "position", "velocity", "acceleration") say how names are meant, else
-    they are taken from the chain beside them (see `model.names`). General models (`Model`,
-    `MatrixModel`) and networks (`Network`, or a text such as "R0-p(R1,C1)" or
-    "1=2, 2=3, 2=4; F1; S4") are compared likewise, with each other or with chains; so are the
-    matrices (A, B, C) or (A, B, C, D) of a state space, with entries as for
-    `Model.from_state_space`.
+    `quantity` (of the sensor: "position", "velocity", "acceleration") apply to names, else they are
+    taken from the other chain (see `model.names`). General models (`Model`, `MatrixModel`) and
+    networks (`Network`, or a text such as "R0-p(R1,C1)" or "1=2, 2=3, 2=4; F1; S4") are compared
+    likewise, with each other or with chains; so are the matrices (A, B, C) or (A, B, C, D) of a
+    state space, with entries as for `Model.from_state_space`.
 
     `domain`: "complex", "real" or "positive" parameters (default), those of a machine; `query`
     limits views, conditions and Markov parameters, and has a domain of its own; `audit` runs every
@@ -214,8 +213,8 @@ def findings(
 def asked_of(
     query: Query | None, engine: Engine | None, domain: Domain | str | None = None
 ) -> tuple[Query, Engine]:
-    """Return a query over the domain and an engine, the usual ones where nothing is said; raises
-    InputError for anything else, and for a query over another domain.
+    """Return a query over the domain and an engine, the usual ones by default; raises InputError
+    for anything else, and for a query over another domain.
     """
     over = None if domain is None else as_domain(domain)
     if query is None:
@@ -244,12 +243,11 @@ def identifiability(
 
     `domain`: "complex", "real" or "positive" parameters, the last ones being those of a machine.
     `experiments`: all ways in which the chain, or the network of masses, is measured, with one
-    parameter vector for all; `Experiment()` is that of it as it is. Without them more is told of
-    the chain as it is:
-    which combinations are determined, and all parameter vectors at a random point. A chain can be
-    named, such as "3:1+b2": `damped` and `quantity` say then how it is meant; a network that is a
-    chain in the chain's own parameters is that chain. `engine` brings settings and a store. Raises
-    InputError.
+    parameter vector for all; `Experiment()` is that of it as it is. Without them more is reported
+    on the unmodified chain: which combinations are determined, and all parameter vectors at a
+    random point. A chain can be named, such as "3:1+b2": `damped` and `quantity` then apply to it;
+    a network that is a chain in the chain's own parameters is that chain. `engine` brings settings
+    and a store. Raises InputError.
 
     >>> from disting import Experiment, Family
     >>> a = Family(3, damped=True)

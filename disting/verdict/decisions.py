@@ -1,5 +1,5 @@
-"""Decisions on all pairs of a list of models, as numbers by pair. Evidence is made when somebody
-asks for a pair.
+"""Decisions on all pairs of a list of models, as numbers by pair. Evidence is made on request for a
+pair.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -57,11 +57,11 @@ class Decisions(NotebookTable):
 
     `steps` holds the findings of the pairs that a sufficient condition decided, `proven` the pairs
     whose bounded finding by a necessary condition was proven afterwards, `inclusions` the findings
-    on pairs of unequal rank. `shares[i, j]` tells, for i before or after j, which positive models
-    i have a positive equivalent j: of indistinguishable pairs both ways, of included models in the
-    ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that
-    were asked again over real or positive ones. `part`: those models of a mixed list that are
-    chains, decided as chains; of their pairs all else here is a copy.
+    on pairs of unequal rank. `shares[i, j]` gives, for i before or after j, which positive models i
+    have a positive equivalent j: of indistinguishable pairs both ways, of included models in the
+    ones that they lie in. `equal` keeps the findings over complex parameters of the pairs that were
+    decided again over real or positive ones. `part`: those models of a mixed list that are chains,
+    decided as chains; of their pairs all else here is a copy.
 
     >>> from disting import Engine, Family, Query
     >>> engine = Engine()
@@ -180,7 +180,7 @@ class Decisions(NotebookTable):
         """Whose generic models have equivalents (IMAGE), or are limits of models (CLOSURE), on the
         other side, i < j.
 
-        Not told by the paper's views, nor where it is not asked.
+        Not given by the paper's views, nor where it is not decided.
         """
         if not self.query.tells_inclusion:
             return Inclusion.UNKNOWN
@@ -240,7 +240,7 @@ class Decisions(NotebookTable):
 
 
 def markov_count(r: Representation, query: Query, subjects: Sequence[AnySide]) -> int:
-    """Markov parameters after G_0: as asked, or twice the number of states of the largest
+    """Markov parameters after G_0: as requested, or twice the number of states of the largest
     model, enough for every pair.
     """
     largest = max((s for s in subjects if s.view.in_s), key=lambda s: s.n_states, default=None)

@@ -1,16 +1,16 @@
 """Settings and cache around the pure functions: chain -> profile, pair -> verdict, list ->
 decisions.
 
-Keys are SHA-256 of the content: what is asked, of which structure, with which settings, by which
-code. So nothing is ever invalidated; what changes has another key. Every finished profile is
-stored at once, so a run that is killed resumes there.
+Keys are SHA-256 of the content: the question, the structure, with which settings, by which code. So
+nothing is ever invalidated; what changes has another key. Every finished profile is stored at once,
+so a run that is killed resumes there.
 
-An engine is handed to much that asks it for nothing: a fit whose candidates have shipped verdicts,
+An engine is passed to much code that does not use it: a fit whose candidates have shipped verdicts,
 a command that looks one up. So what decides on chains, general models and machines, two hundred
 modules, is imported by the method that needs it.
 
 All that leaves the engine is read from the text that is stored, whether it was there or has just
-been written: an answer does not depend on who asked before.
+been written: an answer does not depend on earlier questions.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ class Engine:
         return summary(self, f"seed {self.settings.seed!r}, {self.store!r}")
 
     def subject(self, name: str, chain: Chain, note: str = "") -> ChainSide:
-        """A side of a comparison whose profiles come from this engine; `note` says what its
-        parameters are called in the network that it is.
+        """A side of a comparison whose profiles come from this engine; `note` gives the names of
+        its parameters in the equal network.
         """
         from disting.conditions.chain_view import ChainView
         from disting.conditions.side import Side
@@ -176,7 +176,7 @@ class Engine:
         progress: Progress = silent,
     ) -> Decisions:
         """All pairs of models, of one size or several; the executor's workers compute what is
-        asked for. Models that are chains are compared as chains with each other.
+        needed. Models that are chains are compared as chains with each other.
         """
         from disting.verdict.all_pairs import decisions
         from disting.verdict.decisions import Part
@@ -226,7 +226,7 @@ class Engine:
         executor: Executor | None = None,
         progress: Progress = silent,
     ) -> list[Identifiability]:
-        """Identifiability of chains, in order; each canonical form is looked at once."""
+        """Identifiability of chains, in order; each canonical form is computed once."""
         from disting.decide.identifiability.analysis import IDENTIFIABILITY, in_names_of
 
         formed = [(chain, canonical(chain)) for chain in chains]

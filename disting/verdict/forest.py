@@ -50,7 +50,7 @@ def classes_of(
     names: Sequence[str], relation: Callable[[int, int], Relation]
 ) -> list[tuple[int, ...]]:
     """The classes of models by the relations of all pairs i < j; an undecided pair of one class is
-    none. Raises ContradictionError where a class holds a pair that can be told apart.
+    none. Raises ContradictionError where a class holds a pair that can be distinguished.
     """
     relations = {pair: relation(*pair) for pair in combinations(range(len(names)), 2)}
     same = Forest.of(len(names))

@@ -1,5 +1,5 @@
 """Identifiability over a domain of parameters, of chains, networks and general models alike: a
-network that is a chain in the chain's own parameters is asked about as that chain.
+network that is a chain in the chain's own parameters is treated as that chain.
 """
 
 from collections.abc import Sequence
@@ -127,8 +127,8 @@ def _over(
 
 
 def _asked_of_chain(chain: Chain, engine: Engine) -> AnyModel | None:
-    """The model whose solutions are looked for; None where theorems tell them, or where there are
-    too many parameters. A dead time is told by the response alone.
+    """The model whose solutions are searched; None where theorems give them, or where there are too
+    many parameters. A dead time follows from the response alone.
     """
     if is_settled(engine.answer(IDENTIFIABILITY, (chain,), engine.settings)):
         return None

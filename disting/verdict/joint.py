@@ -3,10 +3,10 @@
 The error bound of a pair is that of the pair alone. Pairs share the points and primes of their
 models, so a bound of all of them adds up what can go wrong, independent or not (union bound): a
 profile errs for all pairs of its model at once, so it counts once for each representation in which
-it decides; a bounded exact decision, inclusion or finding on positive equivalents counts by
-itself. Where inclusion is told, it rests on the order of the ranks: of unequal ranks the larger
-model does not lie in the smaller one, and of equal ranks distinguishable models lie neither in the
-other. So every rank that is not proven counts.
+it decides; a bounded exact decision, inclusion or finding on positive equivalents counts by itself.
+Where inclusion is reported, it rests on the order of the ranks: of unequal ranks the larger model
+does not lie in the smaller one, and of equal ranks distinguishable models lie neither in the other.
+So every rank that is not proven counts.
 """
 
 from collections.abc import Iterator, Mapping
@@ -38,7 +38,7 @@ def classes_safety(classes: Classes) -> int:
 
     Three profiles a model (transfer function, Markov parameters, 1/G), as many links as models
     beyond the first of each class, and one exact decision for each pair of classes that no column
-    tells apart.
+    distinguishes.
     """
     first: dict[int, int] = {}
     for i, group in enumerate(classes.group):
@@ -96,7 +96,7 @@ def _safeties(decided: Decisions) -> Iterator[int]:
 
 
 def _uncertain_ranks(decided: Decisions) -> Iterator[tuple[Stage, int]]:
-    """Yield the models whose ranks are not proven, with the representation that tells them."""
+    """Yield the models whose ranks are not proven, with the representation that gives them."""
     where = Stage.TF
     yield from (
         (where, i)

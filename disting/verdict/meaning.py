@@ -1,6 +1,6 @@
 """Meaning of a verdict for a measurement: one sentence for the engineer at the drive.
 
-It is derived from the evidence, which says the same in algebra (`Verdict.sentence`). A response
+It is derived from the evidence, which gives the same in algebra (`Verdict.sentence`). A response
 here is all that is measured, from the force to the sensor or from the inputs to the outputs; the
 parameters are generic, finite and not zero.
 """
@@ -77,7 +77,7 @@ def undetermined_sentence(name: str, rank: int, parameters: int) -> str:
     """Sentence on the values of one model that no measurement with these inputs and outputs
     determines; "" where each parameter is determined, at least up to finitely many values.
 
-    It is said before a model is called distinguishable: that its structure shows does not mean
+    It is reported before a model is called distinguishable: that its structure shows does not mean
     that its values do.
 
     >>> undetermined_sentence("2:2", 3, 4)

@@ -24,7 +24,7 @@ MOST_SOLVED = 6  # parameters of models of which all values are looked for at on
 @dataclass(frozen=True, slots=True)
 class ModelEquivalent(NotebookTable):
     """Another model, what is known of the pair, and its values where those of the given one are
-    said: all of them, or of larger networks the positive ones by `synthesis`.
+    given: all of them, or of larger networks the positive ones by `synthesis`.
 
     `exponents`: those of its constant phase elements, each with the one of the given network that
     it equals, or with the value of that.
@@ -78,9 +78,9 @@ def model_equivalents(
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> list[ModelEquivalent]:
-    """Those of the other models that are not told apart from the given one over positive values
-    (or in the domain of the query), with all their values that give its transfer function at
-    `values`, exactly. Values of exponents may be said, and change nothing. Models of other numbers
+    """Those of the other models that are not distinguishable from the given one over positive
+    values (or in the domain of the query), with all their values that give its transfer function at
+    `values`, exactly. Values of exponents may be given, and have no effect. Models of other numbers
     of inputs and outputs are passed over. Raises InputError.
 
     >>> from disting.network import network_of

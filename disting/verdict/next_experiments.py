@@ -36,8 +36,8 @@ PLACES = {Sort.MACHINE: "mass", Sort.CIRCUIT: "node", Sort.COMPARTMENTS: "compar
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """A set of items at masses of one structure, what it costs, and the structures that it does
-    not surely tell from that one.
+    """A set of items at masses of one structure, what it costs, and the structures that it does not
+    certainly distinguish from that one.
     """
 
     items: tuple[Item, ...]
@@ -48,7 +48,7 @@ class Option:
 @dataclass(frozen=True)
 class Menu(NotebookTable, Generic[S]):
     """The menu on `structures`, chains or networks, called `names`, that one measurement cannot
-    tell apart.
+    distinguish.
     """
 
     names: tuple[str, ...]
@@ -127,8 +127,8 @@ class Menu(NotebookTable, Generic[S]):
         )
 
     def least(self, structure: int) -> tuple[Option, ...]:
-        """The cheapest sets that surely tell this structure from all others: single items, or two
-        of them where no single one does; none where two are not known to.
+        """The cheapest sets that certainly distinguish this structure from all others: single
+        items, or two of them where no single one does; none where two are not known to.
         """
         items = tuple(self.items(structure))
         for count in (1, 2):

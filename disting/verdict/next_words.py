@@ -40,8 +40,8 @@ NOTHING = {
 
 
 def left_over(further: AnyMenu, structure: int, item: Item) -> dict[int, tuple[int, ...]]:
-    """The structures that an item does not surely tell from this one, with the masses at which
-    it does not.
+    """The structures that an item does not certainly distinguish from this one, with the masses at
+    which it does not.
     """
     table = further.tables[item.kind]
     places = {k: table.alike((structure, item.at), k) for k in further.others(structure)}
@@ -93,7 +93,7 @@ def conclusion(further: AnyMenu, structure: int) -> str:
 
 
 def anywhere(further: AnyMenu) -> str:
-    """The kinds that tell all of them apart wherever they are done; "" if none does."""
+    """The kinds that distinguish all of them at any place; "" if none does."""
     enough = [k for k in further.kinds if further.anywhere(k)]
     phrases = [f"{k.anywhere} (cost {further.costs.cost(k):g})" for k in enough]
     return "; or ".join(phrases)

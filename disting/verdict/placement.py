@@ -1,4 +1,4 @@
-"""One kind of further experiment on a group of structures that one measurement cannot tell apart:
+"""One kind of further experiment on a group of structures that one measurement cannot distinguish:
 every place of every structure against every place of every other one.
 
 A spot is a place of a structure at which the experiment is made. Chains and networks differ in how
@@ -6,7 +6,7 @@ their spots are decided only.
 
 Spots of networks are matrices of transfer functions, which are all compared in pairs.
 
-Of chains, as in `class_search`, no pair is looked at where a bucket decides:
+For chains, as in `class_search`, no pair is compared where a bucket decides:
 
 0. A spot is looked at as the standard form of its machine (`equal_machines`): a force moved is a
    sensor moved in the machine with force and sensor exchanged, so both kinds share their work,
@@ -20,7 +20,8 @@ Of chains, as in `class_search`, no pair is looked at where a bucket decides:
 4. The first class of a bucket is compared with all others by the exact decision; those that are
    not the same are a bucket of their own. So c classes cost fewer than c of them a member.
 
-All of it is over generic complex parameters: what is told apart there is so over positive ones.
+All of it is over generic complex parameters: models that are distinguishable there are so over
+positive ones.
 """
 
 from collections.abc import Iterable, Sequence

@@ -57,8 +57,8 @@ class SpotClasses:
 
     `columns[s][t]`: bucket of spot s in test TESTS[t], -1 where it is not known; `classes[s]`;
     `links[s]`: spots of equal links, such as "6/3", are the same by that rule, others of a class by
-    the exact decision; `open`: pairs of classes that nothing decides; all that is said is wrong
-    with a probability of at most 2**-safety, 0: nothing is left to chance.
+    the exact decision; `open`: pairs of classes that nothing decides; all statements together are
+    wrong with a probability of at most 2**-safety, 0: nothing is left to chance.
     """
 
     columns: tuple[tuple[int, ...], ...]
@@ -173,8 +173,8 @@ class Placement:
         return self.decided.grade(self._at[left], self._at[right])
 
     def alike(self, spot: Spot, other: int) -> tuple[int, ...]:
-        """Places in another structure at which it is not told from this one at this spot; what is
-        undecided included.
+        """Places in another structure at which it is not distinguished from this one at this spot;
+        what is undecided included.
         """
         if (spot, other) not in self._alike:
             apart = Relation.DISTINGUISHABLE

@@ -171,7 +171,7 @@ def read_everywhere(data: Mapping[str, Any]) -> tuple[StoredVerdict, ...]:
 def difference_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdict]) -> str:
     """First statement of such a file that does not follow from its evidence; "" if there is none.
 
-    All verdicts are on the same models, asked in the same way, and there is one for every way to
+    All verdicts are on the same models, with the same query, and there is one for every way to
     place the experiments.
     """
     try:

@@ -74,13 +74,13 @@ class Verdict(NotebookTable):
     """Relation of a pair with its proof.
 
     `decided_by`: the name of the rule, "1" to "9", "exact", "admissible", or "" if undecided;
-    `representation`: the stage at which it looked; with certainty
-    BOUNDED the probability of error is at most 2**-safety; `notes` names what was abandoned.
-    `image` tells, over complex parameters, whose generic models have equivalents on the other
-    side, elements finite and not zero; `closure` whose are limits of models there; for models of
-    unequal rank `inclusions` says why. `left_positive`: which positive left models have a positive
-    equivalent on the right, where generic left ones have equivalents there; `right_positive`: the
-    reverse. `premises`: damping and sensor quantity of both, None of models that are no chains.
+    `representation`: the stage at which it looked; with certainty BOUNDED the probability of error
+    is at most 2**-safety; `notes` names what was abandoned. `image`: over complex parameters, whose
+    generic models have equivalents on the other side, elements finite and not zero; `closure` whose
+    are limits of models there; for models of unequal rank `inclusions` gives the reasons.
+    `left_positive`: which positive left models have a positive equivalent on the right, where
+    generic left ones have equivalents there; `right_positive`: the reverse. `premises`: damping and
+    sensor quantity of both, None of models that are no chains.
 
     >>> from disting import compare
     >>> found = compare("2:1", "2:2")
@@ -158,12 +158,12 @@ class Verdict(NotebookTable):
 
     @property
     def models(self) -> str:
-        """Both names with what they leave to be said."""
+        """Both names with their premises."""
         return _models(self.left, self.right, self.premises)
 
     @property
     def sentence(self) -> str:
-        """The verdict in words that stand alone: models, domain, reason, certainty."""
+        """The verdict in self-contained words: models, domain, reason, certainty."""
         over = f" over {self.domain} parameters"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
@@ -178,7 +178,7 @@ class Verdict(NotebookTable):
 
     @property
     def in_words(self) -> str:
-        """The relation as a sentence says it."""
+        """The relation as used in a sentence."""
         sometimes = self.relation is Relation.SOMETIMES
         return "sometimes indistinguishable" if sometimes else self.relation.value
 
@@ -256,7 +256,7 @@ def open_note(reason: str) -> str:
 
 
 def _models(left: str, right: str, premises: tuple[Premise | None, Premise | None]) -> str:
-    """Both names, with what they leave to be said once where it is the same.
+    """Both names, with their premises, once if they are equal.
 
     >>> from disting.model.chain import Quantity
     >>> a, b = Premise(True, Quantity.ACCELERATION), Premise(False, Quantity.POSITION)
@@ -288,9 +288,8 @@ class View(StrEnum):
     """Selection of the representations that may decide: `combined` is the paper's, all conditions;
     `exact` adds the exact decision.
 
-    All of them are over complex parameters. `real` and `positive` are `exact`, and then look
-    whether equivalents with such parameters exist; `positive` is what is meant where nothing is
-    said.
+    All of them are over complex parameters. `real` and `positive` are `exact`, and then decide
+    whether equivalents with such parameters exist; `positive` is the default.
 
     >>> View.POSITIVE.domain.value, View.MARKOV.domain.value
     ('positive', 'complex')
@@ -322,7 +321,7 @@ class Query:
     """Settings of a decision: the view, the conditions' names, the number of Markov parameters (0 =
     all).
 
-    `inclusion`: after the exact decision, say also whose models lie in the other's closure and
+    `inclusion`: after the exact decision, decide also whose models lie in the other's closure and
     which positive models have positive equivalents; this is most of the work.
 
     >>> from disting import compare
@@ -365,7 +364,7 @@ class Query:
         return self.inclusion and Stage.FIBRE in self.view.representations
 
     def count(self, n_states: int) -> int:
-        """Number of Markov parameters after G_0: as asked, or the N_S1 + N_S2 = `n_states` of both
-        models, which are exhaustive.
+        """Number of Markov parameters after G_0: as requested, or the N_S1 + N_S2 = `n_states` of
+        both models, which are exhaustive.
         """
         return self.markov or n_states

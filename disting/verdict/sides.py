@@ -1,5 +1,5 @@
-"""The two sides of a comparison: what a caller names, as models that questions can be asked of,
-under the experiments in which both are measured, and what each is called.
+"""The two sides of a comparison: what a caller names, as models that can be compared, under the
+experiments in which both are measured, and their names.
 """
 
 from collections.abc import Iterable, Sequence

@@ -1,9 +1,9 @@
-"""A verdict as a file of its own: the models and the experiments wholly, what was asked, with which
+"""A verdict as a file of its own: the models and the experiments wholly, the question, the
 settings, and all evidence, so that `verification.verify` needs nothing else.
 
-A verdict over real or positive parameters may rest on equality over complex ones, or tell it: then
-that verdict stands beside it, with evidence of its own. What somebody else wrote is read without
-trust: of every field the type is looked at, and what asks for too much work is refused.
+A verdict over real or positive parameters may rest on equality over complex ones, or report it:
+then that verdict is stored with it, with evidence of its own. What somebody else wrote is read
+without trust: the type of every field is checked, and requests for too much work are refused.
 """
 
 import json
@@ -97,7 +97,7 @@ def verdict_file(
 def as_file(stored: StoredVerdict) -> dict[str, Any]:
     """The file of a verdict that is there: lists, texts, numbers, as they are read again.
 
-    Words that no check compares are left out: what was given up, and why something is not known.
+    Words that no check compares are omitted: what was abandoned, and why something is not known.
     """
     query, beside = stored.query, stored.over_complex
     asked = asdict(query) | {"view": query.view.value, "conditions": list(query.conditions)}
@@ -141,8 +141,8 @@ def exact(query: Query) -> Query:
 
 def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
     """Inverse of `verdict_file`. Raises InputError for what is no such file, or is damaged, and for
-    keys that it has not, MisnamedError for a name that denotes another model; `beside` = those
-    keys that stand there for another reason.
+    keys that it has not, MisnamedError for a name that denotes another model; `beside` = keys that
+    are allowed for another reason.
     """
     if not isinstance(data, dict) or data.get("format") not in (FORMAT, UNPRIMED):
         is_verdict = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
@@ -166,7 +166,7 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
 
 def difference(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> str:
     """First statement of a file that does not follow from its evidence, such as its sentence; "" if
-    there is none. `sides` are what its models are, beside each other.
+    there is none. `sides` are its models as they are compared.
     """
     again = as_file(stored)
     if data.get("format") == UNPRIMED:

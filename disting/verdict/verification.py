@@ -1,8 +1,8 @@
-"""Checks a verdict from its file alone: the evidence anew at fresh random points, and that all
-that the file says follows from it.
+"""Checks a verdict from its file alone: the evidence is checked again at fresh random points, and
+every statement of the file must follow from it.
 
-Nothing is looked up. What would take more work to see again than is done for it is said, and all
-else is checked (`claim_checks`).
+No stored result is used. Evidence that would take too much work to recompute is reported, and
+everything else is checked (`claim_checks`).
 """
 
 from collections.abc import Callable, Iterator
@@ -206,8 +206,8 @@ def _kind_of(name: str, model: Chain | AnyModel) -> str:
 def _checks(
     data: dict[str, Any], stored: StoredVerdict, sides: Sides
 ) -> Iterator[tuple[str, Callable[[], Iterator[str]]]]:
-    """Yield what is looked at, "" where there is nothing of it, with what yields what does not
-    hold, cheap things first.
+    """Yield the name of each check, "" where there is nothing to check, with the iterator of its
+    failures, cheap ones first.
     """
     yield "models, sentence and all that is derived", partial(_disagreeing, data, stored, sides)
     beside = stored.over_complex
@@ -221,7 +221,7 @@ def _checks(
 
 
 def _named(what: str, claim: Claim, check: Check) -> tuple[str, Callable[[], Iterator[str]]]:
-    """The check of a claim, and what it is called if there is anything to check."""
+    """The check of a claim, and its name if there is anything to check."""
     v = claim.verdict
     shares = v.right_positive if v.left_positive is None else v.left_positive
     looked_at = {LIMITS: v.inclusions, SHARES: shares}.get(what, v.evidence) is not None
@@ -244,7 +244,7 @@ def _not_agreeing(what: str) -> str:
 
 
 def _false_equality(stored: StoredVerdict) -> Iterator[str]:
-    """Yield what is told of complex parameters and not found there."""
+    """Yield statements on complex parameters that are not found again."""
     v, beside = stored.verdict, stored.over_complex
     over_complex = v if beside is None else beside
     equal = over_complex.relation is Relation.INDISTINGUISHABLE

@@ -2,8 +2,8 @@
 memory.
 
 Giving up is an ordinary outcome with its reason; it never becomes an answer. The process is an
-interpreter with a command line of its own, told by its input what to do: a fork would share locks,
-and multiprocessing's spawn runs the caller's script again.
+interpreter with a command line of its own, that reads its task from its input: a fork would share
+locks, and multiprocessing's spawn runs the caller's script again.
 """
 
 import contextlib
@@ -34,8 +34,8 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True, slots=True)
 class ProcessResult(Generic[Value]):
-    """`value` is the task's result where `end` is DONE, and None otherwise; `detail` says
-    more, if there is more.
+    """`value` is the task's result where `end` is DONE, and None otherwise; `detail` gives details,
+    if any.
     """
 
     end: End

@@ -4,8 +4,8 @@ For a zero-dimensional ideal the monomials that no leading monomial divides are 
 Q[x]/I. If the powers 1, u, u^2, .. of a linear form u span A, then I = <f(u), x_i - g_i(u)>: every
 zero of I is a root of f, and the coordinates follow from it. For a radical ideal nearly every u
 does (Gianni and Mora 1989); an ideal becomes radical by the squarefree parts of the minimal
-polynomials of all unknowns (Seidenberg 1974). All of this is exact; a linear form that is no good
-is seen and drawn again.
+polynomials of all unknowns (Seidenberg 1974). All of this is exact; an unsuitable linear form is
+detected and drawn again.
 """
 
 from collections.abc import Sequence

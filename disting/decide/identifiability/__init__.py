@@ -3,7 +3,7 @@ and how many sets of them fit.
 
 Distinguishability compares two structures; this compares one with itself (E. Walter, L. Pronzato
 1997, chapter 2). A fibre of the coefficient map at a rational point counts the parameter vectors
-with one behaviour; the row space of its Jacobian tells which functions of the parameters are
+with one behaviour; the row space of its Jacobian shows which functions of the parameters are
 determined at all.
 
 >>> from disting import Family

@@ -1,10 +1,9 @@
-"""From a chain to its identifiability: rank and row space, then the fibre, then what both say
-together.
+"""From a chain to its identifiability: rank and row space, then the fibre, then their combination.
 
-It is found on a canonical form and told in the parameters of the chain as given.
+It is found on a canonical form and reported in the parameters of the given chain.
 
 Whether an identifiable function has one value for all parameters with the same behaviour, or
-several, is seen at one random point. A difference there is one for generic points, where the
+several, is decided at one random point. A difference there is one for generic points, where the
 solutions vary continuously; agreement at exactly known solutions, which are rational functions of
 the point, is generic but for a probability like that of their number.
 """
@@ -58,7 +57,7 @@ def identifiability(
     many parameter vectors have the same behaviour. `disting.identifiability` has other domains.
 
     It is the same for all chains of one canonical form, up to names. A chain can be named, such as
-    "3:1+b2": `damped` and `quantity` say then how it is meant. Raises InputError for a text that
+    "3:1+b2": `damped` and `quantity` then state how to read it. Raises InputError for a text that
     names no chain, ContradictionError for a defect of the program.
 
     >>> identifiability(Chain(2, meas_plus=2, damped=False)).sentence
@@ -72,7 +71,7 @@ def identifiability(
 def identifiabilities(
     chains: Iterable[Chain], settings: Settings | None = None
 ) -> list[Identifiability]:
-    """The same for many chains, in order; each canonical form is looked at once."""
+    """The same for many chains, in order; each canonical form is computed once."""
     formed = [(chain, canonical(chain)) for chain in chains]
     answers = {
         form: _canonically(form, settings or Settings())

@@ -133,7 +133,7 @@ class Identifiability(NotebookTable):
         return sum(a.positive is Answer.YES for a in self.alternatives)
 
     def to_dict(self) -> dict[str, object]:
-        """Plain data, ready for JSON; what is said of domains is left out where nothing is."""
+        """Plain data, ready for JSON; domains are omitted where there is no statement."""
         return plain_over_domain(asdict(self))
 
     @staticmethod
@@ -189,7 +189,7 @@ def _rest(answer: Identifiability) -> str:
 
 
 def _over_domain(answer: Identifiability) -> str:
-    """The number over a domain in which it is another one than over complex parameters."""
+    """The number over a domain in which it differs from that over complex parameters."""
     if answer.level is Level.GLOBAL:
         return f"no other {answer.domain} parameters give the same behaviour"
     return count_in_words(answer) + _known(answer)

@@ -40,8 +40,8 @@ def _is_by_theorem(found: Identifiability) -> bool:
 def find_chain_over_domain(
     found: Identifiability, solutions: OverDomains | None, domain: Domain
 ) -> Identifiability:
-    """The finding over complex parameters, and the solutions over a domain if they were looked
-    for, as one finding.
+    """The finding over complex parameters, and the solutions over a domain if they were searched,
+    as one finding.
     """
     plain, merged = (
         _merge(found, None if solutions is None else over(solutions, of), of)

@@ -1,5 +1,5 @@
-"""Checks a finding again from what it says alone: fresh points, the stored point, exact
-identities; no search for formulas.
+"""Checks a finding again from its content alone: fresh points, the stored point, exact identities;
+no search for formulas.
 """
 
 from dataclasses import replace
@@ -60,7 +60,7 @@ def _renamed(answer: Identifiability, chain: Chain) -> bool:
 
 
 def _counted(answer: Identifiability, chain: Chain) -> bool:
-    """As many solutions at the stored point as are listed, or as a theorem says; nothing to
+    """As many solutions at the stored point as are listed, or as follows from a theorem; nothing to
     check where they are not all.
     """
     if answer.most is None or answer.most > MOST_LISTED:

@@ -5,8 +5,8 @@ An exchange of parameters that keeps the response turns a vector with the behavi
 one, in every domain: it keeps signs. So if there are as many vectors over complex parameters as
 exchanges, the identity among them, there are as many over real and over positive ones, and the
 parameters are unique up to these exchanges. Other vectors may be positive for all values of the
-parameters, for none of them or for some. What is said of a domain is said of all its values but
-for those at which a polynomial is zero that is not zero everywhere.
+parameters, for none of them or for some. A statement on a domain holds for all its values except
+those at which a polynomial is zero that is not zero everywhere.
 """
 
 from collections.abc import Callable, Mapping
@@ -28,7 +28,7 @@ _EMPTY: dict[str, object] = {
     "exchanges": (),
     "over_complex": None,
 }
-"""Fields of a finding that say nothing; records that were written before them have none."""
+"""Empty fields of a finding; records that were written before them have none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +215,7 @@ def _level(complex_level: Level, level: Level, is_over_complex: bool) -> Level:
 
 
 def plain_over_domain(data: dict[str, Any]) -> dict[str, Any]:
-    """Plain data without the fields that say nothing of a domain."""
+    """Plain data without the empty fields on a domain."""
     if data.get("over_complex"):
         data["over_complex"] = plain_over_domain(data["over_complex"])
     return {k: v for k, v in data.items() if k not in _EMPTY or v != _EMPTY[k]}

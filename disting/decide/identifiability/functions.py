@@ -41,7 +41,7 @@ _ORDER = "kdbmT"  # numerators first
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A function of the parameters; `name` says what it is where the formula does not."""
+    """A function of the parameters; `name` describes it where the formula is missing."""
 
     formula: Formula
     name: str = ""

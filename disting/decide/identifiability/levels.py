@@ -3,8 +3,8 @@ exchanges, locally or not at all; over a domain of parameters (see `domains`).
 
 Parameter j is locally identifiable exactly if the unit vector e_j lies in the row space of the
 Jacobian at a generic point, that is if the Jacobian without column j has a smaller rank. Whether it
-has one value then is asked of the ideal of a generic fibre (`fibres.ideals.one_value`), unless a
-list of the fibre has told it.
+has one value then is decided by the ideal of a generic fibre (`fibres.ideals.one_value`), unless a
+list of the fibre has decided it.
 """
 
 import json
@@ -32,16 +32,15 @@ class ParameterIdentifiability:
     """Identifiability of each parameter over a `domain` of parameters without zeros, for generic
     values.
 
-    `levels` by parameter: GLOBAL: one value fits; EXCHANGES: those of the parameters that
-    exchanges put in its place; LOCAL: several, finitely many, for some values at least; NOT:
-    infinitely many; UNKNOWN: finitely many, whether more than one is not known (`reason` says
-    why). `rank`: number of determinable parameters. `least` and `most`: bounds of the number of
-    parameter vectors with one generic behaviour (`most` None: infinite or not known). `sampled`:
-    the different numbers found at random values of the domain; `varies`: whether the number is
-    proven to depend on the values. `exchanges`: renamings of parameters that keep the response and
-    generate all that are known. `over_complex`: the finding over complex parameters, where it is
-    another one. All of it is wrong with a probability of at most 2**-safety where the certainty is
-    BOUNDED.
+    `levels` by parameter: GLOBAL: one value fits; EXCHANGES: those of the parameters that exchanges
+    put in its place; LOCAL: several, finitely many, for some values at least; NOT: infinitely many;
+    UNKNOWN: finitely many, whether more than one is not known (`reason` explains it). `rank`:
+    number of determinable parameters. `least` and `most`: bounds of the number of parameter vectors
+    with one generic behaviour (`most` None: infinite or not known). `sampled`: the different
+    numbers found at random values of the domain; `varies`: whether the number is proven to depend
+    on the values. `exchanges`: renamings of parameters that keep the response and generate all that
+    are known. `over_complex`: the finding over complex parameters, where it is another one. All of
+    it is wrong with a probability of at most 2**-safety where the certainty is BOUNDED.
 
     >>> from disting import identifiability
     >>> found = identifiability("1<>2, 1>0; in 1; out 1")  # a network
@@ -136,7 +135,7 @@ class ParameterIdentifiability:
         return f"; {phrase}" if phrase and not self.freedom else ""
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data, ready for JSON; what is said of domains is left out where nothing is."""
+        """Plain data, ready for JSON; domains are omitted where there is no statement."""
         return plain_over_domain(asdict(self))
 
     @staticmethod
@@ -186,8 +185,8 @@ def local(model: Model, settings: Settings) -> Local:
 
 
 def identifiable_columns(seen: Sequence[Sample]) -> tuple[int, tuple[int, ...]]:
-    """The rank of the Jacobian, and the columns whose removal lowers it, by the largest ranks
-    seen at the points.
+    """The rank of the Jacobian, and the columns whose removal lowers it, by the largest ranks found
+    at the points.
     """
     every = range(seen[0].n_parameters)
     rank = max(_rank(s, tuple(every)) for s in seen)

@@ -128,8 +128,8 @@ class Origin(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """One parameter vector with the behaviour of the random point; `real` and `positive` are said
-    of this point.
+    """One parameter vector with the behaviour of the random point; `real` and `positive` refer to
+    this point.
 
     `certainty` that it exists: THEOREM for all parameters, PROVEN at this point, NUMERICAL: all
     equations hold within small balls. `note`: the symmetries behind it.

@@ -46,7 +46,7 @@ MOST_LISTED = 100  # solutions of an undamped chain whose number a theorem tells
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A parameter vector with the behaviour of the point, and what is said of it."""
+    """A parameter vector with the behaviour of the point, and its properties."""
 
     values: SolutionValues
     said: Alternative
@@ -93,7 +93,7 @@ def listing(chain: Chain, invariants: int, seed: str) -> Listing:
 
 
 def _plain(chain: Chain) -> Chain:
-    """Without dead time; a chain without springs has no dampers beside them."""
+    """Without dead time; a chain without springs has no dampers in parallel."""
     return replace(chain, dead_time=False, damped=chain.damped and chain.n_masses > 1)
 
 

@@ -1,4 +1,4 @@
-"""Directions of the parameter space that no experiment sees, at random points modulo primes.
+"""Directions of the parameter space that no experiment detects, at random points modulo primes.
 
 A function f of the parameters is locally identifiable exactly if its gradient lies in the row
 space of the Jacobian of the transfer-function coefficients at a generic point, that is if grad f .
@@ -7,7 +7,7 @@ constants c_j this is a linear system in c, one row for each kernel vector at ea
 solutions are all identifiable combinations of the f_j with constant coefficients. Monomials p^a
 are those of f_j = log p_j.
 
-Integer weights of monomials form lattices, of which kernels and short bases are asked.
+Integer weights of monomials form lattices, for which kernels and short bases are computed.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -92,7 +92,7 @@ def search_tangents(structure: Structure, seed: str, count: int) -> Iterator[Tan
 
 
 def combinations(seen: Sequence[Tangent], terms: Sequence[Formula]) -> list[list[int]]:
-    """Short integer vectors c such that sum c_j terms_j is identifiable at the points seen.
+    """Short integer vectors c such that sum c_j terms_j is identifiable at the points used.
 
     Candidates, no proof. There must be at least as many kernel vectors in all as there are terms.
     """
@@ -101,7 +101,7 @@ def combinations(seen: Sequence[Tangent], terms: Sequence[Formula]) -> list[list
 
 def monomials(seen: Sequence[Tangent]) -> list[list[int]]:
     """Short integer exponents a such that the product of p_i^a_i is identifiable at the points
-    seen; candidates likewise.
+    used; candidates likewise.
     """
     return _solved(seen, _logarithms)
 

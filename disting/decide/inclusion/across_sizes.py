@@ -53,8 +53,8 @@ REMEMBERED = 1024  # chains whose twins are kept
 
 
 def by_sizes(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
-    """Inclusion of chains of different sizes, of one sensor quantity; None where `compute`
-    is to be asked.
+    """Inclusion of chains of different sizes, of one sensor quantity; None where `compute` must
+    decide.
     """
     left_is_larger = left.chain.n_masses > right.chain.n_masses
     small, large = (right, left) if left_is_larger else (left, right)
@@ -115,9 +115,7 @@ def show_inclusion(small: Chain, large: Chain, left_is_larger: bool) -> Limit | 
 
 
 def _indirect(small: Chain, large: Chain, left_is_larger: bool) -> Iterator[Limit]:
-    """Limits with a count of dimensions, and limits of chains that a theorem says to be the
-    same.
-    """
+    """Limits with a count of dimensions, and limits of chains that are equivalent by a theorem."""
     for limits in row_limits(small, large, counting=True):
         yield Limit(left_is_larger, limits)
     for low, high in product(twins(small), twins(large)):
@@ -127,8 +125,8 @@ def _indirect(small: Chain, large: Chain, left_is_larger: bool) -> Iterator[Limi
 
 @lru_cache(maxsize=REMEMBERED)
 def twins(chain: Chain) -> tuple[Chain, ...]:
-    """The canonical chains that a theorem says to be the same, itself included; itself alone if
-    it is in no family.
+    """The canonical chains that are equivalent by a theorem, itself included; itself alone if it is
+    in no family.
     """
     if chain.ground_dampers or chain.lag or chain.dead_time:
         return (chain,)

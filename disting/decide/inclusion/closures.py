@@ -20,8 +20,8 @@ converge: N_Rk and N_Fk converge too.
 
 The theorem of `splits` uses nothing of the larger chain but that numerators have at most certain
 degrees, which limits keep. So if it applies, the summands of n/d are among its three splits.
-Conversely, where in a split both are limits of what the larger chain's rows can be, their
-sum is a limit of its models. What a row can be, in a limit, `row_closures` tells.
+Conversely, where in a split both are limits of what the larger chain's rows can be, their sum is a
+limit of its models. `row_closures` decides the possible limits of a row.
 """
 
 from collections.abc import Sequence

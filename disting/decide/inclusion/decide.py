@@ -3,10 +3,10 @@ the order in which statements are sought.
 
 V1, V2: irreducible closures of the images, dim V1 = r1 < r2 = dim V2, so V2 inside V1 is
 impossible. What is found first is kept. Chains of different sizes are compared in `across_sizes`:
-there CLOSURE is asked alone. A dead time of the one alone is a limit of the other's at most, never
+there only CLOSURE is decided. A dead time of the one alone is a limit of the other's at most, never
 finite. The order of the methods is that of `decide.CLOSURE_CHAINS`, then `decide.IMAGE_CHAINS`;
-equivalents prove CLOSURE too. Where neither is known, the whole model is asked for as the ideal of
-a fibre (`decide.BOTH_CHAINS`), with the bounds of `disting.fibres.ideals.bounds`. An empty fibre
+equivalents prove CLOSURE too. Where neither is known, the whole model is decided by the ideal of a
+fibre (`decide.BOTH_CHAINS`), with the bounds of `disting.fibres.ideals.bounds`. An empty fibre
 refutes IMAGE, a solution, whose elements may be zero, proves CLOSURE.
 """
 
@@ -116,7 +116,7 @@ def quick_closure(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
 
 
 def of_two_sensors(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
-    """Not asked of two sensor quantities."""
+    """Not decided for two sensor quantities."""
     if left.chain.quantity is right.chain.quantity:
         return None
     return InclusionFinding(Inclusion.UNKNOWN, reason=ONE_SENSOR)
@@ -148,7 +148,7 @@ def of_profiles(left: ChainSide, right: ChainSide) -> InclusionFinding | None:
 def implied_image(
     left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
-    """IMAGE where it follows from CLOSURE or is not asked for; None where it is to be asked for."""
+    """IMAGE where it follows from CLOSURE or is not needed; None where it must be decided."""
     finding: InclusionFinding | None = found_at_once(IMAGE_CHAINS.at_once, left, right, closure)
     return finding
 
@@ -176,7 +176,7 @@ def of_dead_time(
 def of_two_sizes(
     left: ChainSide, right: ChainSide, closure: InclusionFinding
 ) -> InclusionFinding | None:
-    """Not asked of chains of different sizes."""
+    """Not decided for chains of different sizes."""
     if left.chain.n_masses == right.chain.n_masses:
         return None
     return InclusionFinding(Inclusion.UNKNOWN, reason=NOT_ASKED)

@@ -70,7 +70,7 @@ def by_synthesis(small: Chain, large: Chain, settings: Settings) -> InclusionFin
 
 
 def by_small_ideal(small: Chain, large: Chain, settings: Settings) -> InclusionFinding | None:
-    """An empty fibre as a small ideal; a solution tells nothing here, its elements may be zero."""
+    """An empty fibre as a small ideal; a solution proves nothing here, its elements may be zero."""
     maps = (normalise(rational_part(c)) for c in (small, large))
     decided = decide(*maps, equal_rank=False, seed=settings.seed, limits=LIMITS)
     if not isinstance(decided.evidence, Refutation) or decided.safety < LEAST_SAFETY:
@@ -81,7 +81,7 @@ def by_small_ideal(small: Chain, large: Chain, settings: Settings) -> InclusionF
 
 def safety_of_equivalent(small: Chain, large: Chain) -> int:
     """Largest b with DRAWS D^(c + 1) / (2^B - 1) <= 2^-b, B bits a coordinate: one equivalent
-    tells of generic ones.
+    proves a statement on generic ones.
     """
     small_powers, large_powers = (powers(rational_part(c)) for c in (small, large))
     coefficients = sum(len(a | b) for a, b in zip(small_powers, large_powers, strict=True))

@@ -6,9 +6,9 @@ generic models of the smaller chain are such models is decided by the ideal of o
 (`disting.fibres.ideals.membership`), with its error bound.
 
 A solution for a given model of what results shows only that this lies in the smaller chain's
-closure. Both are equal if their ranks are. Ranks seen at points are lower bounds: so equality is
-proven where the smaller chain's rank cannot be more than is seen, being the number of its
-parameters or of its coefficients; else such a solution says nothing here.
+closure. Both are equal if their ranks are. Ranks found at points are lower bounds: so equality is
+proven where the smaller chain's rank cannot exceed the rank found, being the number of its
+parameters or of its coefficients; else such a solution proves nothing here.
 """
 
 from collections.abc import Iterator, Sequence

@@ -74,7 +74,7 @@ class Room:
 
 
 def room(small: Structure, large: Structure, seed: str = "meeting") -> Room:
-    """The numbers for two structures with the same sensor, without dead time; the rank is seen
+    """The numbers for two structures with the same sensor, without dead time; the rank is computed
     at points of the seed.
     """
     wanted, searched = powers(small), powers(large)

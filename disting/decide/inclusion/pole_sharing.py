@@ -135,7 +135,7 @@ def exclusion_safety(large: Chain) -> int:
 
 
 def _covered(small: Chain, large: Chain) -> bool:
-    """A larger chain with a gap, dampers beside the springs of both or of none, no other
+    """A larger chain with a gap, dampers in parallel with the springs of both or of none, no other
     dampers and no lag.
     """
     plain = not any(c.lag or c.ground_dampers for c in (small, large))

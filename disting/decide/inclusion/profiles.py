@@ -1,8 +1,8 @@
-"""Inclusion that is cheap to see: from missing elements, degrees and profiles.
+"""Inclusion at low cost: from missing elements, degrees and profiles.
 
 The receptance of a chain with a gap is the sum of those of its rows, each between its own two
 ports. By reciprocity it does not matter which of them is the force's, nor which row is which: force
-and sensor cross the gap in the same sense. So ports of the whole may stand at those of the part in
+and sensor cross the gap in the same sense. So ports of the whole may be at those of the part in
 eight ways.
 
 Lemma. Let functions N_k/D_k with deg N_k <= a, deg D_k <= b tend to n/d, n and d coprime, at
@@ -15,8 +15,8 @@ polynomial c other than 0; and deg N <= a, deg D <= b, for no limit has a coeffi
 all.
 
 Limits. So more zeros or more poles refute them. The relative degree b - a does so only where both
-models have equally many poles, where it says the same: as poles go to infinity (T1 -> 0, a spring
-without bound) D loses its leading coefficients, and the relative degree falls.
+models have equally many poles, where it gives the same result: as poles go to infinity (T1 -> 0, a
+spring without bound) D loses its leading coefficients, and the relative degree falls.
 
 Projections. With equally many poles c is constant, and the limit of the leading coefficients is not
 0. So the coefficients of N/d and of a monic d converge, which are regular functions of the
@@ -58,7 +58,7 @@ Degrees = tuple[int, ...]
 
 def by_elements(small: Chain, large: Chain, left_is_smaller: bool) -> InclusionFinding | None:
     """A chain, of one sensor quantity, of smaller rank in another one; None if elements do not
-    tell.
+    decide.
     """
     if small.dead_time and not large.dead_time:
         return without_dead_time(left_is_smaller)
@@ -99,7 +99,7 @@ def confirms_missing(evidence: MissingElements, left: Chain, right: Chain) -> bo
 
 
 def _ways(part: Chain, whole: Chain) -> Iterator[Ports]:
-    """Yield where the four ports of the whole may stand."""
+    """Yield the possible places of the four ports of the whole."""
     plus, minus = (part.act_plus, part.meas_plus), (part.act_minus, part.meas_minus)
     mine = (whole.act_plus, whole.meas_plus, whole.act_minus, whole.meas_minus)
     for (first, second), turned, again in product(((plus, minus), (minus, plus)), (1, -1), (1, -1)):

@@ -2,8 +2,8 @@
 on the next one fulfil, and their limits: no search.
 
 Let G = N/D, D = s^2 E, deg N = 2n - 3, deg E = 2n - 2, and c = d (s - t) the joint between both
-masses. Let m be the end mass, B the dynamic stiffness of the other masses, seen from the sensor's,
-B = s^2 Q, Q = E_R/N_R: they are a row of n - 1 masses with force and sensor at its end. Then N = c
+masses. Let m be the end mass, B the dynamic stiffness of the other masses, at the sensor's mass, B
+= s^2 Q, Q = E_R/N_R: they are a row of n - 1 masses with force and sensor at its end. Then N = c
 N_R, and
 
     D/N = m s^2 + (1 + m s^2/c) B,   so   E/N = m + T Q,   T = g/(s - t),   g = s - t + r s^2,
@@ -35,7 +35,7 @@ not 0, so both forms vanish at the limits.
 
 So their resultants, for the formal degrees, of all t have the product 0. If n is irreducible over
 Q(p), all t are conjugate, and one resultant that is not 0, at a root in the field modulo a prime,
-refutes limits, without any chance. That n is irreducible is seen modulo a prime.
+refutes limits, without any chance. That n is irreducible is proven modulo a prime.
 """
 
 from collections.abc import Iterable

@@ -62,9 +62,9 @@ for generic models of the row. It is symmetric in the roots, and of degree c = C
 times the c-th power of the leading coefficient R_e it is a polynomial in the coefficients of R, and
 vanishes for all models and all their limits.
 
-So that this says something where N has a smaller degree, s^4 N' is replaced by T = s^4 N' - e s^3
-N, which is the same at the zeros of N and has no larger degree, e + 2, than D; R is the resultant
-for the formal degrees e and e + 2. In a free row D = s^2 E: there R(x) = Res(N, x (s^2 N' - e s N)
+For a result where N has a smaller degree, s^4 N' is replaced by T = s^4 N' - e s^3 N, which is the
+same at the zeros of N and has no larger degree, e + 2, than D; R is the resultant for the formal
+degrees e and e + 2. In a free row D = s^2 E: there R(x) = Res(N, x (s^2 N' - e s N)
 - E), formal degrees e and e. Its other side has a free end too, so all x_z add up to 0: R_(e-1) =
 0. On that hyperplane c = C(e-2, 2k-1) is enough: where R_e tends to 0 and nothing else, two roots
 grow, each as (-R_(e-2)/R_e)^(1/2) but for the sign, and as many sums of 2k as hold one of them grow
@@ -84,8 +84,8 @@ MOST_SUMS = 250  # a determinant of so many rows
 
 
 def end_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
-    """The resultant for a receptance modulo a prime, coefficients of the constant first; 0 where
-    it says nothing.
+    """The resultant for a receptance modulo a prime, coefficients of the constant first; 0 where it
+    is inconclusive.
 
     What is not 0 is no receptance of the row, and no limit of its receptances.
     """
@@ -126,7 +126,7 @@ def end_equation(n: Modular, energy: Modular, e: int) -> int:
 
 def inner_resultant(row: Row, num: list[int], den: list[int], modulus: int) -> int:
     """The product of sums for a receptance modulo a prime, coefficients of the constant first; 0
-    where it says nothing.
+    where it is inconclusive.
 
     What is not 0 is no receptance of the row, and no limit of its receptances.
     """

@@ -99,7 +99,7 @@ def _is_empty(point: PointText, chain: Chain, other: Chain) -> bool:
 
 
 def check_words(evidence: Interlacing, chain: Chain, other: Chain) -> bool:
-    """The rows again; points, where there are any, are looked at again."""
+    """The rows again; points, where there are any, are checked again."""
     same = not chain.damped and evidence.parts == row_words(chain, other) != ()
     points = ((evidence.with_one, Answer.YES), (evidence.without, Answer.NO))
     return same and all(

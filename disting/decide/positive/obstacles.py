@@ -30,10 +30,10 @@ change their signs max(d_R, d_F) times at least. If that is more than d + 2 min(
 other chain, it never equals the sum.
 
 Swapped rows (damped). Let the only subsets of non-zero poles whose residues sum to zero be the
-poles of R, and those of F. (At one rational point balls tell the sums of all other subsets from
+poles of R, and those of F. (At one rational point balls separate the sums of all other subsets from
 zero; the product over all of them is a rational function of the parameters, so generically none
-vanishes.) Then the other chain has R' = R and F' = F, or R' = F - 1/(M s^2) and F' = R + 1/(M
-s^2). The first needs equal decays. The second needs
+vanishes.) Then the other chain has R' = R and F' = F, or R' = F - 1/(M s^2) and F' = R + 1/(M s^2).
+The first needs equal decays. The second needs
   - d_F = 0, for R' falls off with the negative factor -1/M otherwise;
   - d_R = 0: F' ~ 1/(M s^2) for s to infinity otherwise, so the other free row is collocated with
     the mass M at its port, but M is the mass of the whole row (s to 0); so there is no more than
@@ -122,8 +122,8 @@ def swap_fails(chain: Chain, other: Chain) -> bool:
 
 
 def only_rows_sum_to_zero(chain: Chain, point: Point, count: int) -> bool:
-    """Proof at a point: no `count` non-zero poles but a row's own have residues that sum to
-    zero. False says nothing.
+    """Proof at a point: no `count` non-zero poles but a row's own have residues that sum to zero.
+    False proves nothing.
     """
     grounded, free = receptances(chain, point)
     if grounded.denominator.gcd(free.denominator).degree() > 0:

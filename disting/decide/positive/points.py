@@ -2,12 +2,12 @@
 and witnesses for an open part of a box.
 
 The question. B is a box of positive parameters of `chain`: a closed interval a parameter, or all
-positive numbers. L is its affine span: a parameter whose interval is one value is a constant
-there. C is such a box of `other`. E holds the points of B that have an equivalent in C. E is
-semi-algebraic (Tarski, Seidenberg), so but for a proper algebraic subset of L the box B consists
-of finitely many open pieces, each inside E or outside of it. "Sometimes" says that there are
-pieces of both kinds. A single point is no proof of a piece: it may be a special one. The two
-statements below make it one.
+positive numbers. L is its affine span: a parameter whose interval is one value is a constant there.
+C is such a box of `other`. E holds the points of B that have an equivalent in C. E is
+semi-algebraic (Tarski, Seidenberg), so but for a proper algebraic subset of L the box B consists of
+finitely many open pieces, each inside E or outside of it. "Sometimes" means that there are pieces
+of both kinds. A single point is no proof of a piece: it may be a special one. The two statements
+below make it one.
 
 A piece with equivalents (exact). At p in B, let f be a map that takes the models of `chain` near p
 to equivalent ones of `other`, continuous near p: a renaming, duality, or a listed solution of a
@@ -40,7 +40,7 @@ place to draw it, never testify.
 
 Words (see `words`) are exact without that: poles and zeros that balls show to be real, simple and
 apart, or one that balls show not to be so, stay so near p, and a chain has the degrees of its
-generic models at p or the word is not asked.
+generic models at p or the word is not used.
 """
 
 from collections.abc import Iterable, Mapping

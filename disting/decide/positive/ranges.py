@@ -1,17 +1,17 @@
 """Positive equivalents within ranges that a user gives: of models of `chain` in its ranges, in the
 ranges of `other`.
 
-ALWAYS: a renaming takes the box of one into the box of the other. NEVER: not even without ranges
-(a range that is one value may make special what never happens generically: then only the decay
+ALWAYS: a renaming takes the box of one into the box of the other. NEVER: not even without ranges (a
+range that is one value may make special what never happens generically: then only the decay
 counts). SOMETIMES: an open part of the box of `chain` that has equivalents in the box of `other`
-and one that has none. Short random points look for both; long ones near by testify (see `points`,
+and one that has none. Short random points find both; long ones nearby prove them (see `points`,
 which has the proof). Where no long point confirms what the search saw, nothing is claimed.
 
 What is proven at a point: exact maps (renamings, duality) that lead into the box are equivalents;
-so are the listed solutions of an undamped chain without tests (see `synthesis.theorems`), if
-they are real. None exists if there is no positive one at all, or if the list of solutions is
-complete and each has a value outside. Of a family of solutions random members are seen only: if
-none of them is inside, the point stays open.
+so are the listed solutions of an undamped chain without tests (see `synthesis.theorems`), if they
+are real. None exists if there is no positive one at all, or if the list of solutions is complete
+and each has a value outside. Of a family of solutions only random members are examined: if none of
+them is inside, the point stays open.
 """
 
 from collections.abc import Iterator, Mapping

@@ -31,13 +31,13 @@ argument on elements. What is known of real factors of `chain` helps: its own ga
 a real factor of D/x, its own ports those of factors of the numerators.
 
 None. A polynomial of even degree that must have a real factor of odd degree and has no real root
-shows that there is no real equivalent. The polynomials: N, if `other` has no gap; with the same
-gap and distances, the numerators of the two rows, because generic equivalents have the same rows
-(own poles, see `obstacles`; that holds for all parameters but a proper algebraic subset, and an
-open set without it still has an open part); with ports together, for each set of g poles that is
-closed under conjugation (the poles of R are the roots of a real factor of D/x, and simple), the two
+shows that there is no real equivalent. The polynomials: N, if `other` has no gap; with the same gap
+and distances, the numerators of the two rows, because generic equivalents have the same rows (own
+poles, see `obstacles`; that holds for all parameters but a proper algebraic subset, and an open set
+without it still has an open part); with ports together, for each set of g poles that is closed
+under conjugation (the poles of R are the roots of a real factor of D/x, and simple), the two
 numerators that it gives: if each set fails, or there is none, there is no equivalent. All of this
-is told by balls that leave something out: a root is not real, a leading coefficient is not zero,
+is decided by balls that exclude something: a root is not real, a leading coefficient is not zero,
 two poles differ. So it stays for all models near by: an open set, proven at one point, be it
 special or not. The models with a positive equivalent are an open set on the other side.
 """

@@ -9,8 +9,8 @@ points: one with a positive equivalent and one without (SOMETIMES).
 
 ALWAYS and NEVER speak of generic positive parameters: of all but those on a proper algebraic
 subset. SOMETIMES speaks of two open sets. A word is the same for all models near one where balls
-tell it (see `points`), so points of undamped models testify however short they are; damped ones,
-whose solutions are listed, are never called SOMETIMES by points.
+decide it (see `points`), so points of undamped models prove it at any length; damped ones, whose
+solutions are listed, are never called SOMETIMES by points.
 
 Foster: undamped, both chains with force and sensor at one place. H = sum r_j/(x + l_j) with l_j >=
 0, r_j > 0. Any g of the non-zero poles serve for the grounded row R, the others for F. For a row

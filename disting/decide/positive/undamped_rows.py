@@ -7,7 +7,7 @@ A row of n masses, its left end at the wall or free, its right end free, ports a
     H = N/D = A k_a .. k_(b-1) B / D,  A = theta_(a-1),  B = phi_(b+1)  (leading, trailing minors)
 
 Let D have n simple real zeros -l_0 > .. > -l_(n-1), l_0 >= 0, none of them a zero of N. The *word*
-of H says how many zeros of N lie in each of the n - 1 gaps between neighbouring poles, from the
+of H gives how many zeros of N lie in each of the n - 1 gaps between neighbouring poles, from the
 slowest on; h_j = j - (number of zeros before l_j).
 
 Necessary. The zeros of the driving-point receptances H_aa, H_bb separate the poles strictly, and

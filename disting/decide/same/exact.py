@@ -8,7 +8,7 @@ model is taken and all parameters of the other model with the same transfer func
 
 What one point proves. Let n be the number of parameters of the searched model and D = max(3 N_B +
 2, n + 1). The pairs (p, q) of equal transfer functions with all elements of q non-zero (one more
-unknown and one more equation say so) are given by equations of degree D at most, so a component
+unknown and one more equation ensure it) are given by equations of degree D at most, so a component
 that dominates the points p has a degree of at most D^(n+1) (Bezout). If V1 = V2 there is one, and
 the points p without an equivalent lie where its projection is not proper: on a hypersurface of no
 larger degree (Z. Jelonek, Testing sets for properness of polynomial mappings, Math. Ann. 315,
@@ -19,10 +19,10 @@ Zippel a point lies there with a probability of at most D^(n+1) / (2^B - 1); up 
 drawn, of either model.
 
 Where the synthesis has no method (force and sensor two or more masses apart inside a row; with
-dampers to the ground also some neighbouring ports) or finds only numbers, the ways to share out
-the numerator's roots decide (`ideals.by_shares`), then the fibre's ideal, modulo random primes and
-with bounds of its own (see `disting.fibres.ideals`). No other program is asked: the answer depends
-on the question alone.
+dampers to the ground also some neighbouring ports) or finds only numbers, the ways to share out the
+numerator's roots decide (`ideals.by_shares`), then the fibre's ideal, modulo random primes and with
+bounds of its own (see `disting.fibres.ideals`). No other program is used: the answer depends on the
+question alone.
 
 Dead time. If R1(s) = R2(s) exp(-Td s) with rational functions that are not zero, exp(-Td s) is one
 as well. It has neither zeros nor poles, and a rational function without any is a constant: Td = 0.
@@ -30,12 +30,12 @@ So models with and without dead time are distinguishable for every Td other than
 rest; and two models with dead times have equal transfer functions only where both the dead times
 and the rational parts are equal.
 
-What equal ranks are needed for. One direction is looked at, say V1 against V2. Where V1 does not
-lie inside V2, the closures differ, whatever the ranks. Where it does, V1 = V2 holds only because
-both have one dimension: an irreducible closed set contains none but itself of its own dimension.
-Ranks seen at points are lower bounds, so two that are seen equal may differ. So a bounded HOLDS is
-as sure as the fibre and both ranks (`decide.asking.resting_on_ranks`); FAILS, theorems and full
-rows need no ranks.
+What equal ranks are needed for. One direction is treated, say V1 against V2. Where V1 does not lie
+inside V2, the closures differ, whatever the ranks. Where it does, V1 = V2 holds only because both
+have one dimension: an irreducible closed set contains none but itself of its own dimension. Ranks
+found at points are lower bounds, so two that are found equal may differ. So a bounded HOLDS is as
+sure as the fibre and both ranks (`decide.asking.resting_on_ranks`); FAILS, theorems and full rows
+need no ranks.
 """
 
 from collections.abc import Sequence

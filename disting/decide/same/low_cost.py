@@ -1,8 +1,8 @@
 """The exact decision for classes of thousands of models: at little cost by theorems, then one fibre
 by the synthesis; with patience by shares and ideals.
 
-A synthesis that takes longer than SECONDS is given up, and the pair is left undecided; that is many
-times what the dearest pair of the shipped families takes, so that runs repeat.
+A synthesis that takes longer than SECONDS is abandoned, and the pair is left undecided; that is
+many times what the dearest pair of the shipped families takes, so that runs repeat.
 """
 
 import signal

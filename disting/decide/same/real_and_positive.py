@@ -105,8 +105,8 @@ def needs_counts(left: Chain, right: Chain) -> bool:
 
 
 def witness_ways(left: Chain, right: Chain) -> tuple[tuple[Chain, Chain], ...]:
-    """The orders in which a real model without real equivalents is looked for, the second one
-    only if the first has none.
+    """The orders in which a real model without real equivalents is searched, the second one only if
+    the first has none.
     """
     if rational_map(left, right) or real_factors(left, right):
         return ()

@@ -201,7 +201,9 @@ def safety_of_empty(
 
 
 def bits_of(model: PolynomialMap, other: PolynomialMap, equal_rank: bool) -> int:
-    """Of the primes modulo which a fibre is looked at: words, unless one run says nothing then."""
+    """Of the primes modulo which a fibre is computed: machine words, unless one run gives no result
+    then.
+    """
     return BITS if safety_of_empty(model, other, equal_rank) >= LEAST else LONG_BITS
 
 
@@ -240,7 +242,7 @@ def safety_of_one_value(model: PolynomialMap) -> int:
 
 def safety_of_other_values(model: PolynomialMap) -> int:
     """Bits of error probability of "a parameter has several values in generic fibres" from one
-    fibre of other values that is not empty (see `one_value`).
+    fibre of other values that is nonempty (see `one_value`).
 
     r + 1 forms in the coordinates, r <= n parameters, one of them with u q_j added, of degree 2 at
     least; u and the q that are left over are variables.

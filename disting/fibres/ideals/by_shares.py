@@ -1,20 +1,19 @@
-"""Chains with dampers, of equal rank, told apart by the shares of the numerator's roots, whole or
-by the one row in which they differ.
+"""Chains with dampers, of equal rank, distinguished by the shares of the numerator's roots, whole
+or by the one row in which they differ.
 
 Chains of one row are rows themselves. Of two chains with a gap at the same place, one row may be
 the same in both. Let H = R + F be generic of the first, and suppose that its rows satisfy
 conditions 1 and 2 of the theorem in `splits`, with x = s. Condition 3 holds: receptances of rows
-fall as s^-2 at least. (A row of several masses without any damper, beside one with dampers to the
-ground, is even in s and seldom satisfies condition 1; what is not seen is not claimed.) Its proof
-speaks of poles that are not zero. The pole of F at zero, double or, with dampers to the ground,
-simple, belongs to the free row of both chains: the second one's grounded row, generic too, has
-none. In the second case of that proof the residues at S sum to lim s H minus those of the free row,
-which sum to zero, the residue at zero included; so they do here. Multiplying all elements of R
-includes its dampers to the ground. So the second chain's 2 h poles S hold all or none of the 2 h
-roots of D_R, and all or none of the roots of E. If E has not 2 h roots, S holds just those of D_R:
-the second chain has the same R and the same F. Where the closures of H are equal, so are those of R
-and those of F; equal ranks of H and one common row mean equal ranks of the other: it is enough to
-tell the others apart.
+fall as s^-2 at least. (A row of several masses without any damper, next to one with dampers to the
+ground, is even in s and seldom satisfies condition 1; nothing is claimed in that case.) Its proof
+is for nonzero poles. The pole of F at zero, double or, with dampers to the ground, simple, belongs
+to the free row of both chains: the second one's grounded row, generic too, has none. In the second
+case of that proof the residues at S sum to lim s H minus those of the free row, which sum to zero,
+the residue at zero included; so they do here. Multiplying all elements of R includes its dampers to
+the ground. So the second chain's 2 h poles S hold all or none of the 2 h roots of D_R, and all or
+none of the roots of E. If E has not 2 h roots, S holds just those of D_R: the second chain has the
+same R and the same F. Where the closures of H are equal, so are those of R and those of F; equal
+ranks of H and one common row mean equal ranks of the other: it is enough to distinguish the others.
 """
 
 from collections.abc import Sequence

@@ -139,7 +139,7 @@ def _are_alike(structure: Structure, other: Structure) -> bool:
 
 
 def _ranks(wanted: CoefficientMap, reached: CoefficientMap, label: str) -> tuple[int, int]:
-    """Generic ranks of both, the largest seen at some points."""
+    """Generic ranks of both, the largest found at some points."""
     labels = (label, *(f"{label}:{k}" for k in range(1, RANK_POINTS)))
     rank, most = (max(generic_rank(m, x) for x in labels) for m in (wanted, reached))
     return rank, most

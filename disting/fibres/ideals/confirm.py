@@ -1,6 +1,6 @@
 """Results of one or more fibres, checked without the search that found them.
 
-The labels of the evidence stand for random primes and points (`fibre_ideal.draw_point`). The error
+The labels of the evidence denote random primes and points (`fibre_ideal.draw_point`). The error
 bound is that of labels that a seed draws (`safety_of`): labels that somebody chose bound nothing.
 
 Contradictions by plain Macaulay matrices: slow, simple, and independent of the search for

@@ -10,8 +10,8 @@ theta and phi look alike, and joints between the ports have their root as an unk
     between:     e_i (s + h_i)      enters row i,      x_i (s + h_i)  row i + 1
     right of b:  w_i = u_i + e_i s  enters row i + 1,  r_i w_i        row i      (c_i = m_(i+1) w_i)
 
-and f_i = b_i/m_i. The joint to a wall enters the first row alone; a damper of the first mass
-beside it is part of it.
+and f_i = b_i/m_i. The joint to a wall enters the first row alone; a damper of the first mass in
+parallel is part of it.
 
 Without dampers in the joints N has no roots between the ports: N = g theta phi, the stiffnesses
 there are part of the gain, u_i enters row i and x_i row i + 1, both for themselves; the other

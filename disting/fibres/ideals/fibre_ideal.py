@@ -73,8 +73,8 @@ def fibre_ideal(
 
 
 def draw_point(model: PolynomialMap, label: str, bits: int = BITS) -> tuple[int, tuple[int, ...]]:
-    """The random prime and point that a label stands for; values are drawn by name, so a scale
-    factor changes no other.
+    """The random prime and point that a label denotes; values are drawn by name, so a scale factor
+    changes no other.
 
     Those who choose labels make them depend on the models (`sampling.about`).
     """
@@ -137,8 +137,8 @@ def jacobian(model: PolynomialMap, point: Sequence[int], modulus: int) -> Matrix
 
 
 def _gradient(terms: Terms, point: Sequence[int], modulus: int) -> list[int]:
-    """All first derivatives of a polynomial: of each term the products of what stands before
-    and behind each factor.
+    """All first derivatives of a polynomial: of each term the products of the factors before and
+    after each factor.
     """
     total = [0] * len(point)
     for exponents, number in terms:

@@ -9,8 +9,8 @@ of `bounds` until the wanted one is reached; one bit is paid for the choice of t
 point is passed over: one that contradicts the others makes the decision UNKNOWN, so all points
 drawn must mislead before a decision is wrong.
 
-Meaning. Equal ranks: MEMBER says V1 = V2, EXCLUDED says V1 != V2, for the closures of the images
-over the complex numbers. Smaller rank of the given model: MEMBER says that V1 lies inside V2,
+Meaning. Equal ranks: MEMBER means V1 = V2, EXCLUDED means V1 != V2, for the closures of the images
+over the complex numbers. Smaller rank of the given model: MEMBER means that V1 lies inside V2,
 EXCLUDED that generic points of V1 are not reached by Phi2 (they could be limits of points that
 are). Elements may be zero in a solution; an empty fibre is empty with them.
 """
@@ -127,11 +127,11 @@ def decide(
     members: bool = True,
 ) -> IdealDecision:
     """Decide whether generic models of `model` are models of `other`; with `equal_rank` the other
-    direction can decide too. Without `members` it is UNKNOWN that they are: only what refutes is
-    looked for.
+    direction can decide too. Without `members` it is UNKNOWN that they are: only refutations are
+    searched.
 
     Numerators of unequal degrees are compared with zeros where one has no coefficient. Raises
-    InputError if the ranks at random points are not as told, or the given model has the larger
+    InputError if the ranks at random points are not as stated, or the given model has the larger
     one.
     """
     if model.degrees[1] != other.degrees[1]:

@@ -11,27 +11,27 @@ dominates the points p has the dimension 2 n - r, and dominates the points q as 
 fibres contain no q with an element that is zero either.
 
 EMPTY: q_j = p_j in generic fibres. Suppose that h = q_j - p_j is not zero on a component X that
-dominates the points p. As in `bounds`, a point p0 modulo a prime lies below a point of X unless
-the product of the leading coefficients A_i vanishes there. Here h has to have an inverse at the
-point above, too. h is algebraic over the p and the q that are free: as `bounds` finds A_j for q_j,
-it finds an equation c_k h^k + .. + c_0 = 0, with c_0 other than 0 because h is not zero on X,
-which is irreducible. So 1/h is integral where c_0 is not zero: one more factor, from a relation in
-which h, of degree 1 and norm 2, stands in the place of q_j.
+dominates the points p. As in `bounds`, a point p0 modulo a prime lies below a point of X unless the
+product of the leading coefficients A_i vanishes there. Here h has to have an inverse at the point
+above, too. h is algebraic over the p and the q that are free: as `bounds` finds A_j for q_j, it
+finds an equation c_k h^k + .. + c_0 = 0, with c_0 other than 0 because h is not zero on X, which is
+irreducible. So 1/h is integral where c_0 is not zero: one more factor, from a relation in which h,
+of degree 1 and norm 2, takes the place of q_j.
 
 NOT EMPTY: q_j takes more values. Suppose that p_j is determined by Phi(p) for generic p; then q_j
 is a rational function of Phi (characteristic 0). Take forms in the coordinates as in `bounds`, the
 i-th one of the i-th and later ones with a first factor other than 0: l_1, .., l_r that are
-algebraically independent on V, and l_0 of the coordinates after the r-th one, such that l_0 tells
-the points of V apart that have the same l_1, .., l_r, at most delta of them. Where these agree in
-the coordinates after the r-th one they agree, by l_r, .., l_1, in all; so that is one linear
-condition for each pair, and factors of 0, .., delta^2 do. Let u be one more variable and G the
-irreducible polynomial with G(l, l_0 + u q_j, u) = 0. In its second argument T it has the degree of
-the minimal polynomial of l_0, at u = 0 too, so that dG/dT is not zero there. The derivative by u
-at u = 0 is dG/dT q_j + dG/du = 0: an identity of integer polynomials in q, which holds modulo
-every prime. So all q of the fibre of p0, in whatever extension, and p0 itself satisfy D q_j + N =
-0, where D and N depend on Phi(p0) alone. If q_j is not p0_j, then D = 0: a polynomial in p0 that
-is not zero vanishes by accident. G divides the relation of the l_i, l_0 + u q_j, u and the n - r
-other q; D is a derivative of it, which multiplies its coefficients by its degree at most.
+algebraically independent on V, and l_0 of the coordinates after the r-th one, such that l_0
+distinguishes the points of V that have the same l_1, .., l_r, at most delta of them. Where these
+agree in the coordinates after the r-th one they agree, by l_r, .., l_1, in all; so that is one
+linear condition for each pair, and factors of 0, .., delta^2 do. Let u be one more variable and G
+the irreducible polynomial with G(l, l_0 + u q_j, u) = 0. In its second argument T it has the degree
+of the minimal polynomial of l_0, at u = 0 too, so that dG/dT is not zero there. The derivative by u
+at u = 0 is dG/dT q_j + dG/du = 0: an identity of integer polynomials in q, which holds modulo every
+prime. So all q of the fibre of p0, in whatever extension, and p0 itself satisfy D q_j + N = 0,
+where D and N depend on Phi(p0) alone. If q_j is not p0_j, then D = 0: a polynomial in p0 that is
+not zero vanishes by accident. G divides the relation of the l_i, l_0 + u q_j, u and the n - r other
+q; D is a derivative of it, which multiplies its coefficients by its degree at most.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -55,7 +55,8 @@ LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
 @dataclass(frozen=True, slots=True)
 class ValueCounts:
     """Parameters with one value (`unique`) in a generic fibre and with `several`; for the others
-    `reason` says why nothing is known. Any of it is wrong with a probability of at most 2**-safety.
+    `reason` explains why nothing is known. Any of it is wrong with a probability of at most
+    2**-safety.
     """
 
     unique: tuple[str, ...] = ()

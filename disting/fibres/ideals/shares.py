@@ -1,4 +1,4 @@
-"""Two rows of masses of equal rank told apart by sharing out the roots of the numerator (see
+"""Two rows of masses of equal rank distinguished by distributing the roots of the numerator (see
 `factored_map`).
 
 At a point p0 of one row where all roots of N lie in the field, an equivalent of the other row
@@ -18,7 +18,7 @@ prime: one tuple of each type is enough, and `safety_of_empty` is the bound of o
 are drawn until one has its roots in the field; as many points as could be drawn may be bad, each
 with that probability.
 
-The Galois group is seen modulo primes (Dedekind, see `splits`), without any chance. A
+The Galois group is computed modulo primes (Dedekind, see `splits`), without any chance. A
 transitive group that holds a cycle of m - 1 roots is doubly transitive, so primitive; with a
 transposition it is S_m (C. Jordan). If one element is a transposition of phi and trivial on theta,
 its conjugates generate 1 x S_n, and the group is S_m x S_n if it projects onto S_m.
@@ -155,7 +155,7 @@ class _Way:
 
 
 def _way(model: FactoredMap, other: FactoredMap, label: str) -> _Way | None:
-    """A direction; None if no point is found, or the groups of roots are not seen to be
+    """A direction; None if no point is found, or the groups of roots are not found to be
     symmetric.
     """
     modulus = prime(label, BITS)
@@ -227,7 +227,7 @@ def is_symmetric(row: FactoredMap, label: str) -> bool:
 
 
 def _wanted(degree: int) -> set[tuple[int, ...]]:
-    """Cycle types that together make a group of this degree symmetric; () stands for a
+    """Cycle types that together make a group of this degree symmetric; () denotes a
     transposition.
     """
     needed = (((degree,), 2), ((1, degree - 1), 3), ((), 2))

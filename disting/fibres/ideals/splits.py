@@ -29,12 +29,12 @@ zero; (H - c/x^q, c/x^q).
 Whether the poles of each row of a generic chain are inseparable: conditions 1 and 2 of the
 theorem in `splits`, proven.
 
-Galois groups are seen modulo primes: where a monic polynomial with coefficients in Z[p] is
+Galois groups are computed modulo primes: where a monic polynomial with coefficients in Z[p] is
 squarefree at a point p0 modulo a prime, its group over Q(p) holds an element whose cycles are as
 long as its irreducible factors there (Dedekind; B. L. van der Waerden, Algebra I, section 61). One
 irreducible value shows that the group is transitive, and one with a linear factor and another
-irreducible one that what fixes a root is transitive on the others: doubly transitive. Residues
-that are not all equal at a point are not all equal. So what is found holds without any chance; if
+irreducible one that what fixes a root is transitive on the others: doubly transitive. Residues that
+are not all equal at a point are not all equal. So what is found holds without any chance; if
 nothing is found, nothing is claimed.
 """
 

@@ -30,7 +30,7 @@ class StackedMap:
 
     @cached_property
     def content(self) -> str:
-        """A digest of all that tells two maps apart."""
+        """A digest of all that distinguishes two maps."""
         return digest(self.parameters, self.coordinates)
 
     def __hash__(self) -> int:

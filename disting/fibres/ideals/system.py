@@ -57,7 +57,9 @@ class PolynomialMap(Protocol):
 
     @property
     def content(self) -> str:
-        """A digest of all that tells two maps apart, for the labels of their points and primes."""
+        """A digest of all that distinguishes two maps, for the labels of their points and
+        primes.
+        """
 
     def __hash__(self) -> int:
         """Of the content."""
@@ -112,7 +114,9 @@ class CoefficientMap:
 
     @cached_property
     def content(self) -> str:
-        """A digest of all that tells two maps apart, for the labels of their points and primes."""
+        """A digest of all that distinguishes two maps, for the labels of their points and
+        primes.
+        """
         return digest(self.parameters, self.degrees, self.coordinates)
 
     def __hash__(self) -> int:

@@ -32,7 +32,7 @@ _ENCLOSED = 2.0**-40
 
 
 class Imprecise(Exception):
-    """A ball too wide to say anything: work again with more bits."""
+    """A ball too wide to decide anything: work again with more bits."""
 
 
 def vanishes(value: Ball, scale: Ball | arb) -> bool:
@@ -62,7 +62,7 @@ def poly(coefficients: Sequence[Ball | int]) -> Poly:
 
 
 def cut(p: Poly, degree: int) -> Poly:
-    """p without the coefficients above `degree`, which theory says are exactly zero.
+    """p without the coefficients above `degree`, which are exactly zero by theory.
 
     >>> cut(poly([1, 2, 3]), 1).degree()
     1
@@ -198,7 +198,7 @@ class Dead:
 
 @dataclass(frozen=True, slots=True)
 class RowValues:
-    """Numbers for the masses and springs of a row, from the left, or of masses beside a port, from
+    """Numbers for the masses and springs of a row, from the left, or of masses next to a port, from
     the port outwards; k(s) = c + d s (undamped: c). `gauges`: how many free choices were made.
 
     `dampers`: from each mass to the ground, 0 where there is none; empty where no mass has one.
@@ -235,7 +235,7 @@ def combine(
 ) -> Iterator[Leaf]:
     """All pairs, then what is left open; nothing but proofs if one side is proven impossible.
 
-    `right` is asked only if the left side is not refuted.
+    `right` is evaluated only if the left side is not refuted.
     """
     first = list(left)
     second = [] if _refuted(first) else list(right())

@@ -171,7 +171,7 @@ def list_solutions(
     """Solutions with their properties. A complete list is closed under conjugation; otherwise
     nothing is known to be real.
 
-    `confirm`: whether those that are no members of a family are looked at by `confirmation`.
+    `confirm`: whether those that do not belong to a family are checked by `confirmation`.
     """
     solutions = (
         _solution(c, [x.values for x in leaves if x is not c or not complete]) for c in leaves

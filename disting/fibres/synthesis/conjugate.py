@@ -7,14 +7,14 @@ over Q, each one once. If the Galois group of N over Q is the product of the sym
 all N_i, it carries each way to every other that puts as many zeros of each N_i in each place: all
 such ways have solutions or none has.
 
-The group is seen modulo primes. Where N is squarefree modulo a prime that divides no denominator
-and not the leading coefficient, the group holds an element whose cycles are as long as its
-irreducible factors (Dedekind; B. L. van der Waerden, Algebra I, section 61), sorted by the N_i.
+The group is computed modulo primes. Where N is squarefree modulo a prime that divides no
+denominator and not the leading coefficient, the group holds an element whose cycles are as long as
+its irreducible factors (Dedekind; B. L. van der Waerden, Algebra I, section 61), sorted by the N_i.
 N_i irreducible makes the group transitive on its zeros; a linear and one other factor, doubly
 transitive. If N_i has one factor of degree 2 and otherwise odd degrees, and all other N_j have odd
 degrees only, an odd power is a transposition of two zeros of N_i that moves nothing else. Its
-conjugates are all transpositions of zeros of N_i, which generate the symmetric group. What is
-found holds without any chance.
+conjugates are all transpositions of zeros of N_i, which generate the symmetric group. What is found
+holds without any chance.
 """
 
 from collections import defaultdict
@@ -99,8 +99,8 @@ def zeros_of(data: Receptance, degree: int) -> list[tuple[int, Ball]]:
 
 
 def conjugate_ways(kinds: list[int], size: int) -> Iterable[list[Way]]:
-    """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in
-    each place stand together.
+    """Every way to choose rho and `size` zeros for A; those with as many zeros of each kind in each
+    place are grouped.
     """
     ways = defaultdict[tuple[int, ...], list[Way]](list)
     for rho in range(len(kinds)):

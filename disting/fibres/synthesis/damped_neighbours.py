@@ -1,9 +1,9 @@
 """Damped, force and sensor at neighbours anywhere in the chain: b = a + 1.
 
 The spring between the ports is k = d (s + rho) with a zero -rho of N; the other zeros are shared
-out, A to the left, B to the right. With k to the ground on both sides the chain falls into two:
-G_d = D + d (s + rho) N = Theta Phi, Phi of degree 2 (n - a). The right end is free, so m_b Phi = k
-B + O(s^2) as s goes to 0, which says
+out, A to the left, B to the right. With k to the ground on both sides the chain falls into two: G_d
+= D + d (s + rho) N = Theta Phi, Phi of degree 2 (n - a). The right end is free, so m_b Phi = k B +
+O(s^2) as s goes to 0, which gives
 
     Phi'(0)/Phi(0) = 1/rho + B'(0)/B(0) = sigma,  or  sigma + sum of 1/z over the roots z of Phi = 0
 

@@ -1,13 +1,13 @@
 """Damped, sensor at the free right end, force one spring before it: a = n - 1, b = n.
 
-The spring k = d (s + rho) between the ports contributes a zero -rho of N = nu A (s + rho). With t
-= d/m_b the last mass swings on its spring with q_t = s^2 + t (s + rho), and q_t divides D/s^2 - m
-N (free left end) resp. D + d (s + rho) N (wall). Modulo q_t both polynomials are linear in s, so
+The spring k = d (s + rho) between the ports contributes a zero -rho of N = nu A (s + rho). With t =
+d/m_b the last mass swings on its spring with q_t = s^2 + t (s + rho), and q_t divides D/s^2 - m N
+(free left end) resp. D + d (s + rho) N (wall). Modulo q_t both polynomials are linear in s, so
 their coefficients form a 2 x 2 determinant C(t) of degree 2n - 4 (free) resp. 2n - 3: every
-solution has C(t) = 0, and t gives the masses m_a = t/nu, m_b and the rest by peeling. Degrees: as
-t grows, q_t has a root near -rho and one near -t, and the root s' near -rho has s' + rho of order
-rho^2/t. For a free chain s^2 H = 1/M + 0 s + O(s^2), M the mass of the whole, which says C(0) = 0:
-a test, and one root less to look for.
+solution has C(t) = 0, and t gives the masses m_a = t/nu, m_b and the rest by peeling. Degrees: as t
+grows, q_t has a root near -rho and one near -t, and the root s' near -rho has s' + rho of order
+rho^2/t. For a free chain s^2 H = 1/M + 0 s + O(s^2), M the mass of the whole, so C(0) = 0: a test,
+and one root less to find.
 
 Dampers to the ground at other masses change nothing but that D/s is no longer divisible by s: q_t
 divides D/s - m s N, and C has degree 2n - 3 without a test. With a damper b at the last mass too,
@@ -152,8 +152,8 @@ def reduce_modulo(p: Poly, rho: Ball, beta: Ball = friction.NOTHING) -> Linear:
 def _with_ratio(branch: Branch, u: Linear, v: Linear, t: Ball) -> Iterator[Leaf]:
     """The masses from t, then the peel of what is left of node a.
 
-    Slopes and offsets have one ratio; at special points both slopes are zero, and the offsets
-    still tell it.
+    Slopes and offsets have one ratio; at special points both slopes are zero, and the offsets still
+    give it.
     """
     top, bottom = u.slope(t), v.slope(t)
     if is_boundary(bottom) and is_boundary(top):

@@ -1,8 +1,8 @@
 """Inclusion of the models of one chain in another: one rational point, and its fibre.
 
-The images of two coefficient maps have irreducible closures V1 and V2. If their ranks are equal,
-V1 = V2 exactly if a generic point of one lies in the image of the other, in either direction; if
-the first rank is smaller, this says whether V1 lies inside V2.
+The images of two coefficient maps have irreducible closures V1 and V2. If their ranks are equal, V1
+= V2 exactly if a generic point of one lies in the image of the other, in either direction; if the
+first rank is smaller, this decides whether V1 lies inside V2.
 
 A rational point p0 is drawn at random. An empty fibre proves that this one model has no equivalent
 with non-zero elements, complex or not; that no generic model has one follows unless p0 lies on a
@@ -37,7 +37,7 @@ DRAWS = 3  # special points are drawn again this often
 
 
 class Direction(StrEnum):
-    """Whose model was looked for in which chain."""
+    """Direction of the search: the given model and the searched chain."""
 
     LEFT_IN_RIGHT = "left in right"
     RIGHT_IN_LEFT = "right in left"
@@ -128,7 +128,7 @@ def decide(left: Chain, right: Chain, seed: str = "disting") -> Exact:
 def member(
     left: Chain, right: Chain, seed: str = "disting", way: Direction = Direction.LEFT_IN_RIGHT
 ) -> Exact:
-    """Finding for one direction: for chains of unequal rank it tells one-sided inclusion."""
+    """Finding for one direction: for chains of unequal rank it decides one-sided inclusion."""
     chain, other = (left, right) if way is Direction.LEFT_IN_RIGHT else (right, left)
     for draw in range(DRAWS):
         point = rational_point(
@@ -160,8 +160,8 @@ def rational_point(chain: Chain, label: str, bits: int = 3 * LENGTH) -> dict[str
 
 
 def point_bits(searched: Chain) -> int:
-    """Bits of the coordinates of a point whose fibre in `searched` is looked at: enough for an
-    error of 2^-WANTED.
+    """Bits of the coordinates of a point whose fibre in `searched` is computed: enough for an error
+    of 2^-WANTED.
 
     >>> grounded = (Chain(n, damped=True, ground_dampers=tuple(range(1, n + 1))) for n in (3, 5, 8))
     >>> [point_bits(chain) for chain in grounded]
@@ -172,7 +172,7 @@ def point_bits(searched: Chain) -> int:
 
 def safety_of_point(searched: Chain) -> int:
     """Largest b with 2 DRAWS D^(n+1) / 2^B <= 2^-b: one rational point of B = `point_bits` bits
-    tells of generic ones.
+    proves a statement on generic ones.
 
     n is the number of parameters of the chain that is searched, whatever the given one has; D =
     max(3 N_B + 2, n + 1) bounds the degrees of equal coefficients and of the equation that no

@@ -4,12 +4,11 @@ H = N/D with D monic gives 1/H = m_a s^2 + W_L + W_R. The zeros of N belong to t
 the right one, q (a-1) of them to the left. The right side is free, W_R(0) = W_R'(0) = 0 (undamped
 W_R(0) = 0), which settles the polynomial part.
 
-The residues of 1/H at the zeros of H are shared out between both sides (see `collocated_rows`).
-W_R(0) = 0, the right end being free, which settles the constants. Far away
-1/H = m_a s^2 + beta s + .., and beta = b_a + d_L + d_R, the dampers of the springs on both sides. A
-side that is free and without dampers tells its own growth, W'(0) = 0. Of b_a, d_L and d_R one that
-is not known follows from beta; if more are not, the slopes of the sides are left open, and
-`friction` finds them.
+The residues of 1/H at the zeros of H are distributed between both sides (see `collocated_rows`).
+W_R(0) = 0, the right end being free, which settles the constants. Far away 1/H = m_a s^2 + beta s +
+.., and beta = b_a + d_L + d_R, the dampers of the springs on both sides. A side that is free and
+without dampers gives its own growth, W'(0) = 0. Of b_a, d_L and d_R one that is not known follows
+from beta; if more are not, the slopes of the sides are left open, and `friction` finds them.
 """
 
 from collections.abc import Iterator

@@ -13,11 +13,11 @@ solution exists (masses, springs and dampers all non-zero, complex ones included
 double the precision; what stays undecided at the last one is a special point.
 
 Dampers to the ground: `friction`, `ground_dampers_only`, `driving_point`, `damped_next_to_end`,
-`damped_neighbours`. A damper b_1 beside the damped spring from mass 1 to the ground is counted to
-it: only d_01 + b_1 is determined, a family of which half and half is listed. The pole of a lag 1/(1
-+ T1 s) is one of the poles of H, each is tried; without any damper it is the one that makes H even.
-A dead time is no rational function, and H exp(-Td s) determines both factors: it is left out on
-both sides.
+`damped_neighbours`. A damper b_1 in parallel with the damped spring from mass 1 to the ground is
+merged with it: only d_01 + b_1 is determined, a family of which half and half is listed. The pole
+of a lag 1/(1 + T1 s) is one of the poles of H, each is tried; without any damper it is the one that
+makes H even. A dead time is no rational function, and H exp(-Td s) determines both factors: it is
+left out on both sides.
 
 Lag: H = H0/(1 + T1 s), so -1/T1 is one of the poles of H, and H0 = H (1 + T1 s).
 
@@ -73,8 +73,8 @@ def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
     """All parameter vectors of `chain` with this receptance. Completeness and emptiness are
     proven, see `Status`.
 
-    `confirm`: look for a proof that each solution solves a square subsystem, which takes longer
-    than all the rest; without it solutions are told to hold within their balls.
+    `confirm`: search a proof that each solution solves a square subsystem, which takes longer than
+    all the rest; without it solutions are reported to hold within their balls.
     """
     if chain.dead_time:
         return Fibre(Status.NOT_COVERED, reason="a dead time is no rational function; leave it out")

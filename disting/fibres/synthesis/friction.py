@@ -2,9 +2,9 @@
 W'.
 
 As in `peel`, W = P/A = k Z/(k + Z), P = k Delta, A = k A' + Delta, Z = Delta/A', k = d (s - z), so
-that P(z) = 0 and P'(z) = d A(z). Far away W' grows like d' s, d' the damper of its first spring,
-so that Z tells b + d' and no more, and W' is known but for a multiple of s: its slope is open.
-That costs no unknown. If W = W0 + d s, W0 = P0/A bounded, then at the root z of k
+that P(z) = 0 and P'(z) = d A(z). Far away W' grows like d' s, d' the damper of its first spring, so
+that Z determines only b + d', and W' is known up to a multiple of s: its slope is open. That costs
+no unknown. If W = W0 + d s, W0 = P0/A bounded, then at the root z of k
 
     W0(z) + d z = 0  and  W0'(z) + d = d,  hence  P0'(z) A(z) - P0(z) A'(z) = 0  and  d = -W0(z)/z
 
@@ -44,7 +44,7 @@ class Side:
     """W = numerator/denominator (monic) of the masses behind a spring, from the port outwards, in
     s.
 
-    No mass beside a wall has a damper that could be counted to that of its spring (see `fibre`).
+    No mass next to a wall has a damper that could be merged with that of its spring (see `fibre`).
 
     `dampers`: which of these masses have one to the ground; `elastic`: springs without dampers;
     `slope_open`: W is known but for a multiple of s, and given without growth.
@@ -143,7 +143,7 @@ def solve_behind(node: Node) -> Iterator[tuple[Ball, Leaf]]:
 
 def attach(spring: Poly, mass: Ball, b: Ball, damper: bool, leaf: Leaf) -> Leaf:
     """The same with one more mass and spring in front; at the boundary if the damper cannot be
-    told from zero.
+    separated from zero.
     """
     if not isinstance(leaf, RowValues):
         return leaf

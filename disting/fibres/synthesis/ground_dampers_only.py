@@ -70,7 +70,7 @@ def _reduced(p: Poly, beta: Ball) -> tuple[Poly, Poly]:
 
 
 def _ratio(u: tuple[Ball, Ball], v: tuple[Ball, Ball]) -> Ball | None:
-    """u/v, two vectors of one direction; None where that cannot be told."""
+    """u/v, two vectors of one direction; None where that cannot be decided."""
     return next(
         (a / b for a, b in zip(u, v, strict=True) if not is_boundary(a) and not is_boundary(b)),
         None,

@@ -15,7 +15,7 @@ Method = Callable[[Row, Receptance], Iterator[Leaf]]
 
 def synthesise(row: Row, data: Receptance) -> Iterator[Leaf]:
     """Yield the rows with this receptance, given in the row's own variable (see `Row.q`); OPEN
-    where no method serves.
+    where no method applies.
     """
     turned = not row.grounded and _rank(row.mirrored) < _rank(row)
     method = method_of(row.mirrored if turned else row)

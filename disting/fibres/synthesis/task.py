@@ -23,7 +23,7 @@ class Status(StrEnum):
     """COMPLETE: the solutions listed are all there are. EMPTY: proven that there is none.
 
     INFINITE: a family; one member per branch is listed, for random values of the free choices.
-    DEGENERATE: the point is special, or an element cannot be told from zero: draw another.
+    DEGENERATE: the point is special, or an element cannot be separated from zero: draw another.
     NOT_COVERED: no method for this structure; the list may be short.
     """
 
@@ -51,7 +51,7 @@ class Solution:
     """Parameter values (balls, complex) by name; `width`: largest relative distance of a
     coefficient from the given one.
 
-    `real`: YES only says that the solution, if it is one, is real: its conjugate is one too, and
+    `real`: YES only means that the solution, if it is one, is real: its conjugate is one too, and
     no other listed ball meets it.
     """
 
@@ -76,8 +76,8 @@ class Exclusions:
 
 @dataclass(frozen=True, slots=True)
 class Fibre:
-    """All parameter vectors of a structure with a given receptance; `reason` tells what stands
-    behind the status.
+    """All parameter vectors of a structure with a given receptance; `reason` explains the
+    status.
     """
 
     status: Status

@@ -45,7 +45,7 @@ Membership proven by construction: undamped chains whose two rows are known exac
 
 The undamped methods have no tests: once the receptances of the grounded and of the free row are
 rational functions of the right degrees, every choice of roots and gauges leads to a chain, as long
-as no element and no divisor is zero, which balls can prove. So a branch that comes to its end is a
+as no element and no divisor is zero, which balls can prove. So a branch that is completed is a
 proof, if both receptances are exact. They are if the given chain has g or N - 1 - g masses before
 its gap (or the other chain has no gap): then its own grounded or free poles are the ones to take.
 """

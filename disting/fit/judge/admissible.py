@@ -1,11 +1,11 @@
 """Of which fitted candidates the data determine all parameters.
 
-The paper selects among these only, by the three criteria of section 2.4, which do not see the
-noise: a model whose every parameter is known within 1 % may exceed a condition index of 30. By
-default a candidate stays whose parameters are known badly, and that is said of it: it is marked
-unless the criteria hold or the data determine it well in spite of them, every parameter differing
-from zero by three standard errors and every inertia, stiffness, resonance and antiresonance known
-to 10 %. A parameter at its bound is marked too. What no data determine is left out by both rules.
+The paper selects among these only, by the three criteria of section 2.4, which ignore the noise: a
+model whose every parameter is known within 1 % may exceed a condition index of 30. By default a
+candidate with badly known parameters stays but is marked unless the criteria hold or the data
+determine it well in spite of them, every parameter differing from zero by three standard errors and
+every inertia, stiffness, resonance and antiresonance known to 10 %. A parameter at its bound is
+marked too. What no data determine is left out by both rules.
 """
 
 from enum import StrEnum

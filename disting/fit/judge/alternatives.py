@@ -1,8 +1,8 @@
-"""Structures that no data can tell apart: left out before a fit, named after it.
+"""Structures that no data can distinguish: omitted before a fit, named after it.
 
 A fit looks at positive parameters, some of them given (`fixed`) or kept in a range (`bounds`). So
-one candidate may stand for another only if every positive model of either has a positive
-equivalent in the other, within what is given:
+one candidate may represent another only if every positive model of either has a positive equivalent
+in the other, within the given ranges:
 
 - where neither has a parameter that is given or bounded, both shares of positive equivalents are
   "always" (see `decide.positive`);
@@ -14,10 +14,10 @@ Anything else is fitted separately, which costs time but decides nothing wrongly
 
 Chains with a damper across the gap are none of the class of the paper: they are compared as
 networks, where both have a lag or neither, and a dead time or neither. Lag and dead time are
-factors of the response; a dead time is seen in it by itself.
+factors of the response; a dead time is identified separately.
 
 The candidates of Fig. 1 have their verdicts shipped (`catalogs.candidates`): those are looked up,
-only others are computed.
+all others are computed.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -158,8 +158,8 @@ def _as_either(winner: Chain, other: Chain, engine: Engine, limits: Limits) -> A
 def _alternative(
     winner: "ChainSide", other: "ChainSide", engine: Engine, limits: Limits
 ) -> Alternative | None:
-    """By the conditions, and only where they are silent by the exact decision: inclusions are
-    not asked for.
+    """By the conditions, and only where they do not decide by the exact decision; inclusions are
+    not decided.
     """
     if engine.verdict(winner, other, Query(View.COMBINED)).relation is Relation.DISTINGUISHABLE:
         return None

@@ -4,9 +4,9 @@ fit, chi2 per line.
 Structural identifiability of fitted candidates: what no data can determine, whatever the
 excitation and the noise.
 
-Where a candidate has more free parameters than the Jacobian of its transfer function's
-coefficients by these has rank, its sensitivities are dependent for all parameter values: condition
-and collinearity index are infinite, and what a computer finds is rounding. Such a candidate is
+Where a candidate has more free parameters than the Jacobian of its transfer function's coefficients
+by these has rank, its sensitivities are dependent for all parameter values: condition and
+collinearity index are infinite, and what a computer finds is rounding. Such a candidate is
 described by the combinations that data do determine, not by a number. Rank and combinations are
 those of `disting.decide.identifiability`, at random points modulo random primes; how many
 parameter vectors fit is not asked here, which costs more than the fit.
@@ -58,7 +58,7 @@ MOST_TERMS = 3  # of a combination that is written out
 def with_structure(
     judged: Mapping[Chain, Practical], task: Task, settings: Settings
 ) -> dict[Chain, Practical]:
-    """The criteria of each chain; where data cannot determine it, `unidentifiable` says so and
+    """The criteria of each chain; where data cannot determine it, `unidentifiable` is set and
     indices are infinite.
     """
     return {
@@ -132,14 +132,13 @@ Scatters = tuple[Scatter, Scatter]
 
 @dataclass(frozen=True)
 class Candidate:
-    """A fitted candidate; `reasons` say which of its parameters are not determined, `residual` is
-    that on the test data, shape (n_y,), whitened, and `missed` what it is expected to be.
+    """A fitted candidate; `reasons` name the parameters that are not determined, `residual` is that
+    on the test data, shape (n_y,), whitened, and `missed` its expected value.
 
-    `chi2` per line, and `chi2_apart` and `worst_apart` without the lines missed most, see
-    `explain`; `noise` = covariance of the residuals on the training data, from which all standard
-    errors follow;
-    `excluded`: by which other candidate, if by any; `rests_on`: single lines on which its gain over
-    a structure that it contains rests, if it does.
+    `chi2` per line, and `chi2_apart` and `worst_apart` without the lines with the largest misfit,
+    see `explain`; `noise` = covariance of the residuals on the training data, from which all
+    standard errors follow; `excluded`: the candidate that excludes it, if any; `rests_on`: single
+    lines on which its gain over a structure that it contains rests, if it does.
     """
 
     chain: Chain
@@ -235,8 +234,8 @@ def explains(estimate: Estimate, task: Task, most: Real) -> bool:
 
 
 def unseen_explanation(estimate: Estimate, task: Task, most: Real) -> Explanation:
-    """Explain the data of a task, of one response, by an estimate at lines that its fit has not
-    seen, if these scatter as they do about it and by no more than the shares `most` of the measured
+    """Explain the data of a task, of one response, by an estimate at lines that its fit did not
+    use, if these scatter as they do about it and by no more than the shares `most` of the measured
     amplitudes, shape (n_f,).
     """
     own, size = _scatter_about(estimate, task), np.abs(task.cost.measured.G)

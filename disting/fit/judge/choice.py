@@ -4,15 +4,15 @@ A candidate is excluded if it does not explain the data (`explanation`) while ot
 another one shows that it misses more than noise (`exclusion`). Of those that are left the simplest
 one is selected, of equally simple ones that with the lowest cost on test. What a structure adds on
 single lines alone is not shown (`lone_lines`): such a structure is selected last. Under the paper's
-rule only candidates whose criteria hold are asked at all.
+rule only candidates whose criteria hold are considered.
 
 Candidates that contain one that explains the data, or that the data do not exclude.
 
 A candidate that contains another one (`fit.search.containment`) has its response in the limit.
-Therefore it is left if the other one is, whatever its own search found. A search may fail on the
-data that it has seen, or a fold of the cross-validation may run away: a resonance without damping
-at one line fits the others better and misses that one by any amount. Then the search begins again
-at the limit, and where it fails there too the candidate is taken at the limit itself.
+Therefore it is left if the other one is, whatever its own search found. A search may fail on its
+own data, or a fold of the cross-validation may run away: a resonance without damping at one line
+fits the others better and misses that one by any amount. Then the search begins again at the limit,
+and where it fails there too the candidate is taken at the limit itself.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -62,8 +62,8 @@ def searched_again(
     scatters: Scatters,
     settings: Settings,
 ) -> dict[Chain, Candidate]:
-    """The judged candidates that miss the data although they contain one that is left, each as good
-    as that; none where the bounds of the task keep them away from it.
+    """The judged candidates that do not fit the data although they contain one that is left, each
+    as good as that; none where the bounds of the task keep them away from it.
     """
     seen = scatters[1]
     own = {c.chain: c for c in left}
@@ -267,7 +267,7 @@ def _excluded(
     scatters: Scatters,
     settings: Settings,
 ) -> tuple[dict[Chain, Exclusion], dict[Chain, LoneLines]]:
-    """Those that others exclude: on the data that no fit has seen, where there are such, since a
+    """Those that others exclude: on the data not used in any fit, where there are such, since a
     machine that changes leaves traces that a rich candidate fits too; else on those of the fit.
     Those whose gain rests on single lines, of the fit (`lone`) or of these data.
     """

@@ -17,7 +17,7 @@ So T is at most what a larger structure that contains both, and was fitted to th
 gains in cost: where nothing bends it is that, if the other one is the larger one, or less.
 
 What a further mass adds is an element that looks for noise at every line: the level is divided by
-their number. On test data, which the fits have not seen, d is given and s = 1; costs there are none
+their number. On test data, which the fits did not use, d is given and s = 1; costs there are none
 of optima, so that no larger structure bounds T. There T is at most that of the residual which the
 structure leaves where it is fitted to the test data too: tangents do not take all of it away.
 """
@@ -148,7 +148,7 @@ def limit(surplus: int, freedom: float, trials: int = 1, level: float = LEVEL) -
 
 
 def trials(chain: Chain, other: Chain, lines: int) -> int:
-    """Among how many places an element of the other structure is looked for."""
+    """Number of places at which an element of the other structure is searched."""
     return max(lines, 1) if other.n_masses > chain.n_masses else 1
 
 

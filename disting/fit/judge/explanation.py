@@ -1,8 +1,8 @@
 """Test of whether a candidate explains the data: its residuals against the scatter of the lines, in
 absolute terms.
 
-With residuals r in units of the scatter (`whitened`) and what they are expected to be, the errors
-of the parameters included (`covariance.expected_deviation`),
+With residuals r in units of the scatter (`whitened`) and their expected values, the errors of the
+parameters included (`covariance.expected_deviation`),
 
     chi2 per line = mean (r / expected)^2
 
@@ -30,12 +30,11 @@ None explains data of too few lines. A structure of p parameters takes p of 2 n 
 the scatter of a line is known from its `BESIDE` neighbours, so 2 p + `BESIDE` lines are needed:
 then three quarters of the residuals are left to speak against it.
 
-What is said of several responses one by one: how much each scatters, and what its residuals are
-like.
+Each of several responses has its own scatter and its own residuals.
 
 Responses of one machine share their parameters and no noise: nothing is carried from the last line
-of one to the first of the next. Of one response all this is what `scatter`, `noise` and `explain`
-say.
+of one to the first of the next. For one response all this is given by `scatter`, `noise` and
+`explain`.
 """
 
 from collections import Counter
@@ -214,8 +213,8 @@ def largest_cost(own_scatter: Scatter) -> float:
 
 
 def largest_miss(own_scatter: Scatter) -> float:
-    """Largest chi2 of one line, beside the two that are missed most, of a model that explains data
-    of this scatter apart from something.
+    """Largest chi2 of one line, besides the two with the largest misfit, of a model that explains
+    data of this scatter with exceptions.
     """
     lines = len(own_scatter.rho)
     return largest_cost(own_scatter) * _critical(CHANCE / lines, own_scatter, count=2)
@@ -247,8 +246,8 @@ def chi2(residual: Real, missed: Real) -> float:
 
 
 def chi2_apart(residual: Real, missed: Real, omega: Real) -> tuple[float, float]:
-    """chi2 per line of residuals without the two neighbouring lines that are missed most, and that
-    of the worst line beside these; `omega`: frequency of each residual, shape (n_y,).
+    """chi2 per line of residuals without the two neighbouring lines with the largest misfit, and
+    that of the worst line besides these; `omega`: frequency of each residual, shape (n_y,).
     """
     used = missed > 0
     if not used.any():
@@ -363,8 +362,8 @@ def scatters(cost: AnyCost, fitted: Sequence[Complex]) -> list[Scatter]:
 def yardsticks(
     train: AnyCost, judged: AnyCost, fitted: Sequence[Complex], seen: Sequence[Complex]
 ) -> tuple[Scatter, Scatter]:
-    """Scatter of the training data and of those on which candidates are judged, what the machine
-    changes by between them included; `fitted`, `seen` = responses of candidates at the lines of
+    """Scatter of the training data and of those on which candidates are judged, including the
+    change of the machine between them; `fitted`, `seen` = responses of candidates at the lines of
     the one and of the other.
     """
     inside = scatters(train, fitted)

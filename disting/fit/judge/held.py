@@ -3,7 +3,7 @@
 A digital drive holds its input from sample to sample, which is half a sample of delay and a little
 gain (`measurement.observation`). A fit that does not know it answers with a lag or a dead time of
 about half a sampling time T, or of 3 T/2 where the drive also computes for one sample. The record
-tells T but not whether the input was held, so the structure is fitted both ways, with
+gives T but not whether the input was held, so the structure is fitted both ways, with
 
     Q = |e|^2, residuals in units of the scatter of the lines,
 

@@ -1,8 +1,8 @@
 """Intervals of 95 % of a fitted parameter.
 
 Where a parameter is well known, p -+ t s with its standard error s. Where it is not, the error of
-its logarithm tells less: the other parameters bend, a damper may as well be zero. There the profile
-of the likelihood decides,
+its logarithm is less informative: the other parameters change, a damper may also be zero. There the
+profile of the likelihood decides,
 
     Q(v) = min |e|^2 over the other parameters with this one at v        (`whitened`),
 
@@ -49,9 +49,9 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class _Likelihood:
-    """Q of a candidate about its minimum `lowest` at the parameters `best`; `size`: of Q, what is
-    missed beside the scatter; `spread` = covariance of ln p where each residual scatters by 1;
-    `usual`: natural sizes of the parameters.
+    """Q of a candidate about its minimum `lowest` at the parameters `best`; `size`: of Q, the
+    misfit in addition to the scatter; `spread` = covariance of ln p where each residual scatters by
+    1; `usual`: natural sizes of the parameters.
     """
 
     task: Task
@@ -158,8 +158,8 @@ def _profiled(about: _Likelihood, name: str, is_felt: bool) -> Interval:
 
 
 def _rise(about: _Likelihood, at: int, most: float) -> Callable[[float], float]:
-    """Q - Q_min by the logarithm of one parameter, in units of what is missed beside the scatter;
-    each search begins where the last one that found at most `most` ended.
+    """Q - Q_min by the logarithm of one parameter, in units of the misfit in addition to the
+    scatter; each search begins where the last one that found at most `most` ended.
     """
     task, chain = about.task, about.candidate.chain
     names, plant = task.names(chain), task.plant(chain)

@@ -1,7 +1,7 @@
 """Verdict on two structures where several responses are fitted together.
 
-More responses never make two structures harder to tell apart: what the first one tells apart stays
-apart, and what behaves the same in it need not do so in the others.
+More responses never make two structures harder to distinguish: structures that the first one
+distinguishes stay distinguishable, and structures equivalent in it may differ in the others.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -183,8 +183,9 @@ def locate(task: Task, candidates: Sequence[Chain], home: Chain, store: Store) -
 def informative(
     candidates: Sequence[Chain], further: Sequence[FurtherResponse], home: Chain | None = None
 ) -> tuple[list[Chain], list[FurtherResponse], list[str]]:
-    """The candidates that have all places, the responses that say something of them, and in words
-    those that do not; raises InputError where no candidate has the places. `home`: as in `locate`.
+    """The candidates that have all places, the responses that are informative for them, and in
+    words those that do not; raises InputError where no candidate has the places. `home`: as in
+    `locate`.
     """
     if home is not None:
         lacking = [extra.setup.missing(home.structure) for extra in further]

@@ -32,7 +32,8 @@ chain with it has the look-alikes on a base of the chain without it, each with t
 between base and mass 1, as that of a motor's bearings.
 
 In every case the fitted mass 1 is m1 mb / (m1 + mb), the limit at high frequencies, and a mode of
-an elastic base is a term 1 / (mb s^2 + db s + kb) of the response beside those of the drive.
+an elastic base is a term 1 / (mb s^2 + db s + kb) of the response in addition to those of the
+drive.
 """
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -81,7 +82,7 @@ class LookAlike:
 
 @dataclass(frozen=True, slots=True)
 class LookAlikes:
-    """Look-alikes of a chain. `not_looked_for`: the reason why none were looked for, else "".
+    """Look-alikes of a chain. `not_looked_for`: the reason why none were searched, else "".
     `base_differs`: a drive on an elastic base, with as many masses if the base is counted, has
     other responses (proven), so that data can decide between them. `lossless`: branches that are
     the same if all dampers are removed and not known to be the same with them. `near`: other

@@ -1,11 +1,11 @@
 """Structures that the data do not exclude, each with all that is known of it.
 
-Which these are, `choice` tells. What contains the selected one (`containment`), or another one with
+`choice` selects them. What contains the selected one (`containment`), or another one with
 parameters that the data do not determine, is not excluded either, and by no experiment while the
-smaller one is true: it is named, and no rival. And what
-behaves as one of them does, for exactly these values, is not excluded either, by this or any other
-data of this force and sensor: other structures of as many masses, anywhere in the catalogue, with
-any ground dampers, and other values of its own.
+smaller one is true: it is named, and no rival. And what behaves as one of them does, for exactly
+these values, is not excluded either, by this or any other data of this force and sensor: other
+structures of as many masses, anywhere in the catalogue, with any ground dampers, and other values
+of its own.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -78,8 +78,8 @@ class Disagreement:
 
 @dataclass(frozen=True)
 class Member:
-    """A structure that the data do not exclude; `open` names those of which it is not known
-    whether they do the same; `intervals` of 95 % of its fitted parameters.
+    """A structure that the data do not exclude; `open` names those that may be equivalent;
+    `intervals` of 95 % of its fitted parameters.
 
     `exchanged`: the candidate at each other set of values with exactly the same response, such as
     that of a drive on an elastic base of which the other resonance is the base's.
@@ -221,10 +221,10 @@ def _with_friction(
     """The same of a chain with a damper across the gap, whose equivalents no theorem on chains
     lists.
 
-    Beside force and sensor it adds d s to 1/G. It is the only term in s of 1/G at low frequencies,
-    where the free part moves as one mass, so that G determines d and the response without it: the
-    structures that do the same without it do so with it. Of force and sensor elsewhere this is not
-    known.
+    At force and sensor it adds d s to 1/G. It is the only term in s of 1/G at low frequencies,
+    where the free part moves as one mass, so that G determines d and the response without it:
+    structures that are equivalent without it are so with it. Of force and sensor elsewhere this is
+    not known.
     """
     name = Damper(chain.gap).parameter
     if not chain.collocated or (chain.act_minus, chain.act_plus) != (chain.gap, chain.gap + 1):
@@ -246,7 +246,7 @@ def _in_order(chain: Chain, values: Mapping[str, float]) -> dict[str, float]:
 
 
 def _damped_at_port(chain: Chain) -> Iterator[tuple[Chain, str]]:
-    """The chain with a damper beside its force, and its name; none where no chain has it."""
+    """The chain with a damper at its force, and its name; none where no chain has it."""
     ends = chain.act_minus, chain.act_plus
     if chain.collocated and chain.gap and ends == (chain.gap, chain.gap + 1):
         yield replace(chain, gap_damper=True), Damper(chain.gap).parameter
@@ -262,8 +262,8 @@ def _in_all(
     unknown: Sequence[str],
     task: Task,
 ) -> tuple[tuple[Twin, ...], tuple[str, ...]]:
-    """Of the structures that do the same in the first response those that do so in all; of a
-    family, of which one is known, that stays open.
+    """Structures equivalent in the first response that are so in all; for a family, of which one
+    member is known, this stays open.
     """
     if len(task.cost.setups) == 1:
         return tuple(the_twins), tuple(unknown)

@@ -2,7 +2,7 @@
 
 A value that is well known lies within p exp(-+ t s), with the standard deviation s of its
 logarithm. For one that is not, and for all where one is as good as unknown (the tangents that s
-comes from say nothing of how far the others move with it), the profile of the likelihood decides,
+comes from do not show how far the others move with it), the profile of the likelihood decides,
 
     Q(v) = min |e|^2 over the other values with this one at v        (e whitened),
 
@@ -12,9 +12,9 @@ to vanish, or to become a direct connection.
 
 Networks with the same responses as a fitted one, with their own values.
 
-Where a verdict says that two networks give the same responses for all positive values, the values
-of the other one are those at which its responses are the fitted ones: least squares without noise,
-which ends at rounding. Where several sets of values do that, those found are given.
+Where by a verdict two networks give the same responses for all positive values, the values of the
+other one are those at which its responses are the fitted ones: least squares without noise, which
+ends at rounding. Where several sets of values do that, those found are given.
 """
 
 from collections.abc import Sequence

@@ -1,4 +1,5 @@
-"""Machines outside the candidates, fitted to the data beside a chain of three or four masses.
+"""Machines outside the candidates, fitted to the data in addition to a chain of three or four
+masses.
 
 A chain with force and sensor at mass 1 comes near the response of a drive on an elastic base
 (see below), and of a motor m1 that drives several loads, each a row of masses (a branch). These
@@ -26,10 +27,10 @@ The search is local: that none was found is no proof.
 Elastic bases that give the response of a fitted chain within the scatter of the lines.
 
 A damped drive on an elastic base has other responses than a chain of three masses or more, but
-often hardly other ones: the damping alone tells them apart. So the drive of n - 1 masses on a base
-with a spring and a damper to the ground, force and sensor between base and mass 1, is fitted to the
-response G of the chain, with friction b1 between base and mass 1 where the chain has friction to
-the ground. With r_k = G_base / G - 1 at the lines and rho_k their scatter (`scatter`),
+often hardly other ones: the damping alone distinguishes them. So the drive of n - 1 masses on a
+base with a spring and a damper to the ground, force and sensor between base and mass 1, is fitted
+to the response G of the chain, with friction b1 between base and mass 1 where the chain has
+friction to the ground. With r_k = G_base / G - 1 at the lines and rho_k their scatter (`scatter`),
 
     T = sum_k |r_k|^2 / rho_k^2
 

@@ -15,8 +15,8 @@ look alike where friction governs the whole band. So where the quantity is assum
 candidates, and the structure that explains the data best, are fitted with the other two. With n
 residuals and p parameters they are compared by n ln(J/n) + p ln n (Schwarz 1978). A quantity under
 which nothing explains the data (`unseen_explanation`) does not count: where none does, all of them
-miss as much. Inertias of a wrong quantity are wrong by factors of (j omega)^n, so that nothing may
-be said of the machine before somebody names the quantity.
+miss as much. Inertias of a wrong quantity are wrong by factors of (j omega)^n, so that nothing can
+be stated about the machine before the user gives the quantity.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -220,7 +220,7 @@ def _first_response(
     executor: Executor | None,
 ) -> tuple[Task, Sequence[Estimate]]:
     """The task of the first response by logarithms, on few lines, and estimates of it; of several
-    responses, or of another cost, small candidates and the selected one are fitted to it anew.
+    responses, or of another cost, small candidates and the selected one are fitted to it again.
     """
     if not isinstance(task.cost, JointCost) and task.cost.case is Case.LOGARITHM:
         return explore(searched, task)
@@ -284,8 +284,8 @@ HELD = (2.0, 2.5, 4.0)  # rates of a hold, as ratios to the highest frequency
 
 
 def better_sign(task: Task, candidates: Sequence[Chain]) -> Task:
-    """The sign with which candidates fit better, the best of the largest and the smallest ones
-    of each size; of further responses each is tried beside the first one.
+    """The sign with which candidates fit better, the best of the largest and the smallest ones of
+    each size; of further responses each is tried together with the first one.
     """
     asked = _extremes(candidates)
     cost = task.cost.thinned(SEARCHED)
@@ -414,7 +414,7 @@ def _views(loose: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
 
 
 def _misread(data: FrequencyResponse) -> Iterator[tuple[str, Complex]]:
-    """The response if the phases, the gains or the sampling were others than they are taken for."""
+    """The response if the phases, the gains or the sampling were others than assumed."""
     yield "with the sign of all phases (of the imaginary parts) turned", data.G.conj()
     size = np.abs(data.G)
     if any(ASSUMED_LINEAR in said for said in (*data.notes, *data.doubts)) and size.max() < MOST_DB:

@@ -5,8 +5,8 @@ The controller acts on what the sensor's mass does, in the direction of the forc
     u = C(s) (r - y),    C(s) = P + I/s + D s / (1 + s Tf),
 
 where y is the position x, the velocity or the acceleration there; in a cascade a position gain V
-stands around a velocity loop, u = C(s) (V (r - x) - s x). With the receptance H(s) = x/u of the
-chain, its lag and dead time included, the loop that is cut at the force has the gain
+encloses a velocity loop, u = C(s) (V (r - x) - s x). With the receptance H(s) = x/u of the chain,
+its lag and dead time included, the loop that is cut at the force has the gain
 
     L(s) = C(s) F(s) H(s),    F = 1, s, s^2;  s + V for a cascade.
 
@@ -76,7 +76,7 @@ class Controller:
         return np.asarray(s + self.V if self.loop == "cascade" else s ** ZEROS[self.loop])
 
     def of_reference(self, s: Complex) -> Complex:
-        """The factor of C H on the way from the reference to what it is for."""
+        """The factor of C H between the reference and the controlled quantity."""
         return np.asarray(self.V + 0 * s if self.loop == "cascade" else self.of_position(s))
 
 

@@ -4,8 +4,8 @@ uncertainty.
 Each structure is drawn many times (`samples`), its own fit among the draws; a range holds 95 % of
 the draws of every structure. What behaves as a fitted structure does at the sensor (its twins) has
 the same resonances, antiresonances and margins; masses and responses elsewhere differ, and are
-those of the twin, of a family those of one of it. What only contains a structure of the set, and
-what is not decided, is not looked at. Of what is known badly a note says whether the structures lie
+those of the twin, of a family those of one of it. Structures that only contain one of the set, and
+undecided ones, are ignored. For badly known quantities a note states whether the structures lie
 apart, so that another experiment helps, or the uncertainty of one is as wide, so that more
 measuring does.
 
@@ -60,7 +60,7 @@ FELT = 1e-12  # of the square of a twin's largest sensitivity: what is less has 
 @dataclass(frozen=True, eq=False)
 class ParameterSamples:
     """A structure with its parameters drawn, shape (n, n_p), its own first, and the number of
-    structures that do the same at the sensor.
+    structures that are equivalent at the sensor.
     """
 
     chain: Chain
@@ -203,7 +203,7 @@ class Kind(StrEnum):
 @dataclass(frozen=True, slots=True)
 class Statement:
     """`name` lies between `low` and `high` [`unit`] in `holds` of `total` structures; an infinite
-    end has no bound. `note` says what else has to be known.
+    end has no bound. `note` gives further information.
     """
 
     kind: Kind
@@ -249,7 +249,7 @@ def statements(
     """Statements that hold for all structures that the data do not exclude; none where no structure
     remains.
 
-    Raises InputError where no margins can be told.
+    Raises InputError where no margins can be computed.
     """
     fitted = draw_samples(left, task)
     if not fitted:

@@ -114,8 +114,8 @@ def profile(candidate: Candidate, task: Task, name: str, span: float = 0.0) -> P
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Confidence:
-    """Standard errors of ln |G| and of arg G [rad] of a model, shape (n_f,) each; infinite
-    where the data do not tell.
+    """Standard errors of ln |G| and of arg G [rad] of a model, shape (n_f,) each; infinite where
+    the data do not determine them.
     """
 
     amplitude: Real
@@ -151,9 +151,9 @@ def fit_percent(
     """100 (1 - |G - G_m| / |G - mean G|) over the lines, G measured and G_m fitted, norms over the
     complex numbers; `at` = which of several responses.
 
-    The normalised root mean square that MATLAB's `compare` prints: 100 for a perfect fit, 0 for
-    one no better than a constant. It weighs lines by their amplitude, so it tells of the
-    resonances and hardly of what lies 40 dB below them. Not a number where the data are constant.
+    The normalised root mean square that MATLAB's `compare` prints: 100 for a perfect fit, 0 for one
+    no better than a constant. It weighs lines by their amplitude, so it describes the resonances
+    and hardly anything 40 dB below them. Not a number where the data are constant.
     """
     missed = np.linalg.norm(measured.G - response_of(candidate, task, measured.omega, at))
     moved = np.linalg.norm(measured.G - measured.G.mean())
@@ -177,19 +177,19 @@ class Selection(NotebookTable):
     """Result of a selection. `selected` is None where no candidate is admissible; candidates in the
     order of the cost on test.
 
-    `explanation` is that of the selected candidate, else of the best one; `members`: the
-    structures that the data do not exclude, the selected one first, none where nothing explains
-    the data; `containing`: those that contain one of them, which are no rivals: no experiment
-    excludes them if the smaller one is true; `readings`: what would fit then; `relied_on`: what
-    holds for all members, around which `controller` closes the loop; `better`: candidates that the
-    paper's rule does not admit and that would exclude the selected one; `saved` counts the
-    candidates that were not fitted because one with the same positive models was (`same_as`, by
-    candidate); `validation` says where the test cost comes from, `judging` is that cost. Where
-    several responses are fitted, `test` is the data of the first one, and `silent` names those that
-    are zero, from which nothing is learned. `quantities`: the readings of the data, the assumed
-    quantity first, where others explain them as well; then nothing is selected, and `question` asks
-    for the quantity; `command`: what reads and fits the same data once more, without the
-    candidates; `outside`: machines outside the candidates that explain the data.
+    `explanation` is that of the selected candidate, else of the best one; `members`: the structures
+    that the data do not exclude, the selected one first, none where nothing explains the data;
+    `containing`: those that contain one of them, which are no rivals: no experiment excludes them
+    if the smaller one is true; `readings`: what would fit then; `relied_on`: what holds for all
+    members, around which `controller` closes the loop; `better`: candidates that the paper's rule
+    does not admit and that would exclude the selected one; `saved` counts the candidates that were
+    not fitted because one with the same positive models was (`same_as`, by candidate); `validation`
+    is the source of the test cost, `judging` is that cost. Where several responses are fitted,
+    `test` is the data of the first one, and `silent` names those that are zero, from which nothing
+    is learned. `quantities`: the readings of the data, the assumed quantity first, where others
+    explain them equally well; then nothing is selected, and `question` requests the quantity;
+    `command`: what reads and fits the same data once more, without the candidates; `outside`:
+    machines outside the candidates that explain the data.
     """
 
     selected: Candidate | None
@@ -228,7 +228,7 @@ class Selection(NotebookTable):
 
     @property
     def question(self) -> str:
-        """The sentence that asks for the sensor quantity where the data are explained and do not
+        """The sentence that requests the sensor quantity where the data are explained and do not
         settle it; "" else.
         """
         return question(self.quantities) if self.explanation.is_near and self.quantities else ""

@@ -17,8 +17,8 @@ from disting.renamed import renamed
 def figure_1(
     sizes: Sequence[int] = (1, 2, 3, 4), quantity: Quantity = Quantity.ACCELERATION
 ) -> tuple[Chain, ...]:
-    """Chains driven and seen at mass 1, every set of ground dampers, with and without lag and dead
-    time. Raises InputError for a size below 1.
+    """Chains driven and measured at mass 1, every set of ground dampers, with and without lag and
+    dead time. Raises InputError for a size below 1.
 
     >>> len(figure_1())
     120
@@ -69,10 +69,10 @@ def chosen_ports(
 ) -> tuple[Chain, ...]:
     """Chains of several sizes with force and sensor at the same ports, with their variants.
 
-    A port is the number of a mass, the word last, or minus:plus such as 1:3; sizes in which it
-    does not exist are left out, and those in which the last mass is that of the other port: with
-    one mass, force 1 and sensor last are not the two ends that were asked for. Raises InputError
-    where none is left.
+    A port is the number of a mass, the word last, or minus:plus such as 1:3; sizes in which it does
+    not exist are omitted, and those in which the last mass is that of the other port: with one
+    mass, force 1 and sensor last are not the two ends that were requested. Raises InputError where
+    none is left.
 
     >>> [str(c) for c in chosen_ports([2], "1", "last")][:1]
     ['2 masses, gap 0, force 1-0, sensor 2-0, damped']

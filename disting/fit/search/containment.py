@@ -7,8 +7,8 @@ and their dampers to the ground; of networks likewise. This is the theorem of `m
 place and after any change of the machine, follows from the larger structure too: no experiment
 excludes it while the smaller one is true. The relation is transitive.
 
-Where a chain is only a limit of another one by reciprocity, its force in the place of the other
-one's sensor, a further sensor may tell them apart: this is not containment.
+Where a chain is only a limit of another one by reciprocity, its force in place of the other one's
+sensor, a further sensor may distinguish them: this is not containment.
 """
 
 from collections.abc import Iterator, Mapping
@@ -123,7 +123,7 @@ def _ways(part: Chain, whole: Chain) -> tuple[tuple[tuple[int, int], ...], ...]:
 
 
 def _ports(part: Chain, whole: Chain) -> Iterator[Places]:
-    """Yield where the ports of the whole are in the part: the two rows beside a gap may be
+    """Yield where the ports of the whole are in the part: the two rows next to a gap may be
     exchanged, which turns force and sensor alike.
     """
     mine = (whole.act_plus, whole.act_minus, whole.meas_plus, whole.meas_minus)

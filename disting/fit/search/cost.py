@@ -7,7 +7,7 @@ With g = G(p)/G_M line by line, the residuals of one line are, each times its we
     case 3 (14):  log10 |g|,     arg g;          S_3 = Re dlnG/dp / ln 10, Im dlnG/dp (15)
 
 arg g lies in (-pi, pi]: the difference of two separately unwrapped phases would depend on where
-each unwrapping began. Case 3 sees d ln G only, to which s^n adds nothing: cost and criteria do not
+each unwrapping began. Case 3 uses d ln G only, to which s^n adds nothing: cost and criteria do not
 depend on the sensor quantity.
 """
 
@@ -196,7 +196,7 @@ class Cost(SquaredCost):
 
     @property
     def delays(self) -> tuple[str, ...]:
-        """Dead times beside that of the chain: none."""
+        """Dead times in addition to that of the chain: none."""
         return ()
 
     def plant(self, structure: Structure, sign: int) -> Plant:

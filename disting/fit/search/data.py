@@ -6,8 +6,8 @@ Residuals in units of what the lines scatter, in the complex plane.
 
 real parts (along the response: amplitude) of all lines first, then imaginary parts (across it:
 phase); of the true parameters each has variance 1 and all are independent, however small the
-response is beside its noise, where logarithms are neither. |e|^2 is minus twice the logarithm of
-the likelihood.
+response is compared with its noise, where logarithms are neither. |e|^2 is minus twice the
+logarithm of the likelihood.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -32,7 +32,7 @@ Lines = Callable[[FrequencyResponse], Real]
 
 @dataclass(frozen=True, eq=False)
 class WhitenedCost(SquaredCost):
-    """Of the data of `cost`, whose lines scatter as `known` says."""
+    """Cost of the data of `cost`, with the scatter `known` of the lines."""
 
     cost: AnyCost
     known: Scatter
@@ -147,8 +147,8 @@ class Weights:
     """Weights of the lines of all responses: of the `first` cost's, measured a second time where
     there is a `test`, and of `further` ones, each in units of its own scatter.
 
-    Weights are 1/rho of each line, rho as `scatter` tells it, what the machine changes by until its
-    test data included; or those by `lines`, of each response divided by what its weighted residuals
+    Weights are 1/rho of each line, rho from `scatter`, including the change of the machine until
+    its test data; or those by `lines`, of each response divided by what its weighted residuals
     scatter by, lambda^2 = mean (w rho)^2. `alike`: all lines of all responses count alike.
     """
 
@@ -164,8 +164,8 @@ class Weights:
         return self.lines is None and not self.alike
 
     def training(self, fitted: Sequence[Complex] = ()) -> AnyCost:
-        """The cost of all responses on the training data, weights scaled to a mean square of 1.
-        What the lines scatter is seen beside the stacked responses `fitted` of candidates.
+        """The cost of all responses on the training data, weights scaled to a mean square of 1. The
+        scatter of the lines is estimated with the stacked responses `fitted` of candidates.
         """
         whole = (FurtherResponse(self.first.measured, Setup(), self.test), *self.further)
         ends = np.cumsum([len(extra.measured) for extra in whole])[:-1]

@@ -62,8 +62,8 @@ def rough(
     """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each
     start.
 
-    None is given up for being worse than others: what leads to the best optimum is often worse
-    than half of them for long.
+    None is dropped for a larger cost: the start that leads to the best optimum is often worse than
+    half of the others for long.
     """
     points = box.clipped(starts)
     costs, damping = np.empty(len(points)), np.full(len(points), FIRST_DAMPING)

@@ -236,7 +236,7 @@ def _across_lines(plant: Plant, cost: AnyCost, box: Box, points: Real) -> tuple[
     """Points and costs reached from these where no damper is fitted.
 
     An undamped resonance cannot move across a line: on it the amplitude has no bounds, and the
-    phase to either side is constant, so that no slope tells the right side. Right of the imaginary
+    phase to either side is constant, so that no slope shows the right side. Right of the imaginary
     axis, at s = (j + share) omega, both are smooth. The search comes nearer to the axis step by
     step and ends on it.
     """
@@ -291,7 +291,7 @@ def _own(the_estimate: Estimate) -> dict[str, float]:
 
 
 def different(costs: Real, most: int) -> list[int]:
-    """The best starts, at most so many, one of each valley as far as costs tell."""
+    """The best starts, at most so many, one of each valley as far as costs show."""
     chosen = list[int]()
     for i in np.argsort(costs, kind="stable"):
         if len(chosen) < most and all(costs[i] > costs[k] * (1 + REACHED) for k in chosen):

@@ -5,7 +5,7 @@ of all; stacked residuals are those of each response, shape (..., 2 n_f). So the
 the costs, and whatever looks at neighbouring lines takes the responses one by one (`responses`).
 
 A machine in one state is eliminated once for all its sensors. A dead time of its own, `Td2` of the
-second response, stands behind the parameters of the chain.
+second response, follows the parameters of the chain.
 """
 
 from collections.abc import Iterator, Mapping
@@ -84,8 +84,8 @@ class JointPlant:
         return np.concatenate(responses, axis=-1), np.concatenate(gradients, axis=-1)
 
     def _with_motion(self, p: Real) -> list[tuple[Plant, Real, NDArray[np.intp], Motion]]:
-        """Each part with its own parameters, where these stand in `p`, and the motion of its
-        machine, computed once a state.
+        """Each part with its own parameters, their places in `p`, and the motion of its machine,
+        computed once a state.
         """
         units: dict[tuple[object, ...], Motion] = {}
         answers = []
@@ -104,7 +104,7 @@ class JointPlant:
 
     @cached_property
     def _places(self) -> list[NDArray[np.intp]]:
-        """Where the parameters of each part stand."""
+        """Places of the parameters of each part."""
         n = len(self.parts[0].parameters)
         places = []
         for setup in self.setups:

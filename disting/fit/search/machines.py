@@ -1,4 +1,4 @@
-"""Machines that compete in one fit: chains beside networks, with a ground damper at the force."""
+"""Machines that compete in one fit: chains and networks, with a ground damper at the force."""
 
 from collections.abc import Iterable
 from dataclasses import replace

@@ -1,5 +1,5 @@
-"""Starts from the modes that the data show: natural frequencies and how much of each the sensor
-sees, without a search.
+"""Starts from the modes that the data show: natural frequencies and the share of each at the
+sensor, without a search.
 
 The response of force and sensor at one place is, times a power of s, H = sum share_r s^2 / (s^2 + 2
 zeta_r omega_r s + omega_r^2) with positive shares. Its poles are found by vector fitting (Gustavsen
@@ -49,8 +49,8 @@ def is_across(chain: Chain) -> bool:
 def from_modes(
     chain: Chain, measured: FrequencyResponse, sign: int
 ) -> Iterator[tuple[list[float], list[float], float]]:
-    """Yield masses and springs in their order, and the dead time [s] that the phase shows beside
-    them; nothing where the data show fewer modes than the chain has.
+    """Yield masses and springs in their order, and the dead time [s] that the phase shows in
+    addition; nothing where the data show fewer modes than the chain has.
     """
     wanted = chain.n_masses - 1
     if not wanted or not is_across(chain):
@@ -115,8 +115,8 @@ def modes(s: Complex, inertance: Complex, count: int, pairs: int) -> Iterator[tu
 
 def row(squares: Real, shares: Real) -> tuple[list[float], list[float]]:
     """Masses and springs of the undamped chain with these squares of natural frequencies and these
-    shares, from the mass that is driven and seen; the last spring holds it to the ground, and is
-    zero for a free chain.
+    shares, from the mass that is driven and measured; the last spring holds it to the ground, and
+    is zero for a free chain.
 
     >>> row(np.array([18.0]), np.array([0.5]))
     ([2.0], [36.0])

@@ -126,7 +126,7 @@ def _named(
     springs: Sequence[float],
     softness: float,
 ) -> Parameters:
-    """Masses, springs and dampers beside them: to the springs as in the smaller fit, or as in
+    """Masses, springs and dampers in parallel: for the springs as in the smaller fit, or as in
     `rest` where that has none.
     """
     values = dict(
@@ -143,8 +143,8 @@ def _named(
 
 
 def _undamped(masses: Real, springs: Real) -> tuple[Real, Real]:
-    """Poles but the one of the free motion, and zeros [rad/s] of the undamped free chain,
-    driven and seen at its first mass.
+    """Poles but the one of the free motion, and zeros [rad/s] of the undamped free chain, driven
+    and measured at its first mass.
     """
     stiffness = np.append(springs, 0.0) + np.append(0.0, springs)
     diagonal, beside = stiffness / masses, -springs / np.sqrt(masses[:-1] * masses[1:])
@@ -157,8 +157,8 @@ def _undamped(masses: Real, springs: Real) -> tuple[Real, Real]:
 def _with_pair(
     poles: Real, zeros: Real, omega: float, distance: float
 ) -> list[tuple[float, float]]:
-    """Pairs (zero, pole) with one more at a frequency, in the order that the others ask for:
-    z_1 < p_1 < z_2 < ...
+    """Pairs (zero, pole) with one more at a frequency, in the order that the others require: z_1 <
+    p_1 < z_2 < ...
     """
     below, above = omega * (1 - distance / 2), omega * (1 + distance / 2)
     zero, pole = (
@@ -173,9 +173,9 @@ def conspicuous(measured: FrequencyResponse, response: Complex) -> list[float]:
     """Angular frequencies at which one more resonance would explain most of what the response of a
     fit misses.
 
-    A pole beside a zero adds about a h to ln G, h = 1/(1 - x^2 + 2 j zeta x), x = omega/omega_0;
-    with the best complex a it takes |h'e|^2 / h'h from |e|^2, e = ln(G_M/G). The highest maxima
-    over the lines, for the better of two damping ratios.
+    A pole near a zero adds about a h to ln G, h = 1/(1 - x^2 + 2 j zeta x), x = omega/omega_0; with
+    the best complex a it takes |h'e|^2 / h'h from |e|^2, e = ln(G_M/G). The highest maxima over the
+    lines, for the better of two damping ratios.
     """
     ratio = measured.G / response
     missed = np.log(np.abs(ratio)) + 1j * np.angle(ratio)

@@ -24,7 +24,7 @@ from disting.model.chain import Sort
 from disting.network.network import Element, Network, Port
 
 Entries = Mapping[int, Fraction | str | int]
-"""Of a vector, by nodes; a text stands for minus a parameter."""
+"""Of a vector, by nodes; a text denotes minus a parameter."""
 Sized = Mapping[int, float | str]
 """The same in floating point."""
 RATIOS = 3.0  # of gears: starts lie within this factor of 1
@@ -38,7 +38,8 @@ class NetworkPlant:
     """A network with one input and one output at angular frequencies `omega` [rad/s], (n_f,).
 
     `breadth` h: at s = j omega (1 - j h) instead, where resonances are as broad as if they had a
-    damping ratio of about h: what a search can begin with, as an undamped one is seen from nowhere.
+    damping ratio of about h: a start for the search, since an undamped resonance has no effect from
+    afar.
     """
 
     network: Network
@@ -216,7 +217,7 @@ class NetworkPlants:
 
     @cached_property
     def _parts(self) -> list[tuple[NetworkPlant, NDArray[np.intp]]]:
-        """The plant of each response, and where its parameters stand."""
+        """The plant of each response, and the places of its parameters."""
         pairs = []
         cells = (cell for row in self.network.cells for cell in row)
         for cell, omega in zip(cells, self.omegas, strict=True):

@@ -204,7 +204,7 @@ class Plant:
 
     @cached_property
     def _slices(self) -> dict[str, slice]:
-        """Where the parameters of each kind of element stand in a parameter vector."""
+        """Places of the parameters of each kind of element in a parameter vector."""
         kinds = [e.kind for e in self.structure.elements]
         return {
             kind: slice(kinds.index(kind), kinds.index(kind) + kinds.count(kind))

@@ -1,8 +1,8 @@
 """Setup of a further response of the same machine: the differences from the first one.
 
 Force and sensor may be elsewhere, and the machine may be changed as in any experiment. Places are
-written as the commands write ports, such as 2, last or 1:3, since candidates of several sizes are
-asked: with so many masses a setup is an `Experiment`.
+written as the commands write ports, such as 2, last or 1:3, since candidates have several sizes:
+for a number of masses a setup is an `Experiment`.
 """
 
 import re
@@ -18,7 +18,7 @@ from disting.model.chain import Chain, Ports, Quantity, Structure
 
 @dataclass(frozen=True, slots=True, init=False)
 class Setup:
-    """One way to measure; as it stands, that of the first response.
+    """Setup of one measurement; by default that of the first response.
 
     `sensor`, `force`: a port, "" for that of the candidate; `changes` of the machine, sizes in the
     units of its parameters, also by kind: `locked`, masses that do not move, `inertias`, `springs`,
@@ -161,7 +161,7 @@ def _written(place: Place | None) -> str:
 
 def measured_chain(chain: Chain, setups: Sequence[Setup]) -> MeasuredChain:
     """The chain under the experiments of all setups, for verdicts; quantities, signs and dead times
-    tell nothing more.
+    add no information.
     """
     experiments = (setup.experiment(chain.n_masses) for setup in setups)
     return MeasuredChain(chain, tuple(experiments))

@@ -44,8 +44,8 @@ class Scale:
     delay: float
 
     def of(self, name: str, size: float) -> float:
-        """Typical value of an element that is no mass; `size` is that of the spring beside a
-        damper, else the mass.
+        """Typical value of an element that is no mass; `size` is that of the spring in parallel
+        with a damper, else the mass.
         """
         match name[0]:
             case "d":
@@ -70,7 +70,7 @@ def scale(measured: FrequencyResponse) -> Scale:
 
 
 def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Parameters]:
-    """Starts (a): N - 1 pairs of antiresonance and resonance, seen or supposed; none where the
+    """Starts (a): N - 1 pairs of antiresonance and resonance, found or assumed; none where the
     ports are elsewhere.
     """
     if not is_seen_at_one_end(chain):
@@ -129,7 +129,7 @@ def extrema(measured: FrequencyResponse) -> list[tuple[float, float]]:
 
 
 def cauer(total: float, pairs: Sequence[tuple[float, float]]) -> tuple[list[float], list[float]]:
-    """Masses and springs of the undamped free chain, driven and seen at mass 1, from its total
+    """Masses and springs of the undamped free chain, driven and measured at mass 1, from its total
     mass and (z_i, p_i) [rad/s].
 
     With x = s^2: 1/H = total x prod(1 + x/p_i^2) / prod(1 + x/z_i^2) = m1 x + 1/(1/k12 + 1/(m2 x +
@@ -229,7 +229,7 @@ def bare(chain: Chain) -> Chain:
 
 
 def shorten(chain: Chain) -> Iterator[Chain]:
-    """Yield every candidate with one damper away from springs, the lag or the dead time fewer."""
+    """Yield every candidate with one ground damper, the lag or the dead time removed."""
     if chain.gap_damper:
         yield replace(chain, gap_damper=False)
     for at in chain.ground_dampers:
@@ -269,7 +269,7 @@ def _filled(
 
 
 def _completed(names: Sequence[str], entries: Parameters, size: Scale) -> dict[str, float]:
-    """All parameters; dampers beside springs follow the springs."""
+    """All parameters; dampers in parallel with springs follow the springs."""
     values = dict(entries)
     for name in names:
         if name not in values and "k" + name[1:] in values and name[0] == "d":

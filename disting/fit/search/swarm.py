@@ -65,7 +65,7 @@ def by_swarm(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> E
 
 
 def _moved(costs: Callable[[Real], Real], low: Real, high: Real, seed: int) -> Any:
-    """pymoo's swarm over a box, moved until it stands still; raises InputError without pymoo."""
+    """pymoo's swarm over a box, moved until it converges; raises InputError without pymoo."""
     try:
         from pymoo.algorithms.soo.nonconvex.pso import PSO
         from pymoo.core.problem import Problem
@@ -76,7 +76,7 @@ def _moved(costs: Callable[[Real], Real], low: Real, high: Real, seed: int) -> A
         raise InputError('the particle swarm needs pymoo: pip install "disting[swarm]"') from None
 
     class Fit(Problem):  # type: ignore[misc]
-        """The costs as pymoo asks for them."""
+        """The costs in the interface of pymoo."""
 
         def _evaluate(self, x: Real, out: dict[str, Any], *_: object, **__: object) -> None:
             out["F"] = costs(x)

@@ -1,8 +1,8 @@
 """Families of networks: all machines, circuits or graphs of compartments of a kind, each once, by
 the text that a person would write for it.
 
-A module here is a kind: its KIND says all that commands, catalogues, pages and help know of it.
-With -damped behind the name, machines have a damper beside every spring. Machines are counted up to
+A module here is a kind: its KIND defines it for commands, catalogues, pages and help. With -damped
+after the name, machines have a damper in parallel with every spring. Machines are counted up to
 their numbering and the exchange of force and sensor (reciprocity), circuits up to the order of what
 commutes, compartments up to their numbering.
 """

@@ -43,8 +43,8 @@ def _read(source: Callable[[], Iterable[str]]) -> tuple[Network, ...]:
 class Kind:
     """Families of networks that differ in a number, such as machines-2 and machines-3.
 
-    `place` is that in lists; `sizes` are listed, and numbers up to `largest` can be asked for.
-    `text` says what is in a family N; `title(N)` is that of its page. `texts(N, joint)` yields the
+    `place` is that in lists; `sizes` are listed, and numbers up to `largest` can be requested.
+    `text` describes a family N; `title(N)` is that of its page. `texts(N, joint)` yields the
     networks, `joint` being that of springs: with dampers "=", or "~" without; `has_dampers`: there
     are both. `shipped` and `in_brief` name families as NetworkFamily has them. `with_loops`, of
     machines of N masses: whether all of them are in, those with loops too, or only those without;

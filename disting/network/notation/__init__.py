@@ -1,4 +1,4 @@
-"""Networks as people write them, each notation told apart by its signs or named."""
+"""Networks as people write them, each notation recognised by its signs or named."""
 
 import re
 from fractions import Fraction
@@ -62,7 +62,7 @@ def network_of(
     """The network that a text describes, in the notation that is named or that its signs show:
     "impedance", "autoeis", "boukamp", "impedancefitter", "spice", "machine", "compartments"; or
     that of a number in a family, such as trees-4:17. `quantity`: what the sensors of a machine show
-    unless the text says it. `name`: the text, unless another one is given. Raises InputError with
+    unless the text states it. `name`: the text, unless another one is given. Raises InputError with
     the place and what to write instead.
 
     >>> network_of("R(RC)").parameters, network_of("1=2, 2=3, 2=4; F1; S4").shape

@@ -1,7 +1,7 @@
 """Circuits as strings, elements in series and parallel in three dialects, and as netlists.
 
 A line is an element with its two nodes; values behind them are of no meaning for a structure. The
-port is said by `port 1 0`, or by a source (V or I) between its nodes; else it is from node 1 to 0.
+port is given by `port 1 0`, or by a source (V or I) between its nodes; else it is from node 1 to 0.
 Lines end with a semicolon or where the text does.
 
     impedance.py, many tools    R0-p(R1,C1)-W1       - series, p(,) parallel
@@ -11,8 +11,8 @@ Lines end with a semicolon or where the text does.
 
 An element is R, L, C, W or P and a number, or a word that begins with a small letter or an
 underscore: Rct, Cdl, CPE_f3. Boukamp's may have none and are numbered. P, a constant phase element,
-is CPE of impedance.py and Q of Boukamp. Behind an element pyimpspec writes values in braces,
-R{R=20}, which say nothing of a structure (`notation.values` reads them). The port is at both ends
+is CPE of impedance.py and Q of Boukamp. After an element pyimpspec writes values in braces,
+R{R=20}, which do not concern the structure (`notation.values` reads them). The port is at both ends
 of the circuit.
 """
 
@@ -192,8 +192,8 @@ def _placed(part: Part, start: int, end: int, new: Iterator[int]) -> Iterator[El
 
 @dataclass(slots=True)
 class _Reader:
-    """Tokens, the place in them, how often a letter stood without a number, and where elements
-    end in the text.
+    """Tokens, the place in them, the number of times a letter occurred without a number, and where
+    elements end in the text.
     """
 
     dialect: Dialect

@@ -6,7 +6,7 @@
     {"elements": [["R1", 0, 1], ["L1", 0, 2]], "port": [1, 0]}
     {"components": [..], "structure": [..], "force": "Motor.Rotor", "sensor": ..} of openTorsion
 
-The first letter of a name says the kind of an element, a text behind its nodes the ratio of its
+The first letter of a name gives the kind of an element, a text after its nodes the ratio of its
 gear, or the exponent of a constant phase element (two may share one); a compartment is ["v", 1];
 node 0 is the ground, a port is [plus, minus] or a list of such.
 """

@@ -67,8 +67,8 @@ def _refuse_twice(joints: list["Joint"]) -> None:
 
 
 def joint_name(letter: str, a: int, b: int) -> str:
-    """The name of a joint, as in chains: k12, k01 at the ground, k9_10, and b1 of a damper that
-    stands alone at the ground.
+    """The name of a joint, as in chains: k12, k01 at the ground, k9_10, and b1 of a damper that is
+    alone at the ground.
     """
     low, high = sorted((a, b))
     return f"{letter}{low}{high}" if high < 10 else f"{letter}{low}_{high}"

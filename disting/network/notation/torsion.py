@@ -1,5 +1,5 @@
 """Drive trains as openTorsion writes them: components of disks, shafts and gears, and which element
-of one component the next one is joined to. Force and sensor, which it has not, are named beside.
+of one component the next one is joined to. Force and sensor, which it lacks, are given separately.
 
     {"components": [{"name": "Motor", "elements": [
        {"name": "Rotor", "type": "Disk", "inertia": 2, "damping": 0},

@@ -1,5 +1,5 @@
 """A fit in sentences, as a page, as figures, and as plain data for a file. This package renders
-what `disting.fit` found, and asks it for what a figure needs.
+what `disting.fit` found, and requests from it the data of figures.
 
 The names:
 

@@ -1,7 +1,7 @@
 """Title area of the page of a fit: the result, three numbers, the rule by which the structure was
 chosen.
 
-Rows of the tables of numbers: what a model says about the machine, its parameters, and their
+Rows of the tables of numbers: the results of a model on the machine, its parameters, and their
 intervals.
 
 The structures that the data do not exclude, as the page shows them: drawn, with intervals,
@@ -210,7 +210,7 @@ class Answer:
 
 
 def answer(selection: Selection, results: Sequence[ParameterRow]) -> Answer:
-    """The answer of a selection; `results`: what the described model says about the machine."""
+    """The answer of a selection; `results`: the results of the described model on the machine."""
     numbers = (_misfit(selection), _left(selection), _third(selection, results))
     return Answer(_title(selection), numbers, _rule(selection))
 

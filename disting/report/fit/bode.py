@@ -1,8 +1,8 @@
 """Bode diagram of data and model, as in Figs. 3 and 4 of the paper: asymptotes, resonances and
 antiresonances marked.
 
-Data that tell how much they scatter have error bars, the model has its confidence band, and what
-the lines without excitation of a multisine show lies under the response, in the same unit.
+Data with known scatter have error bars, the model has its confidence band, and the levels of a
+multisine's lines without excitation are drawn below the response, in the same unit.
 """
 
 from collections.abc import Sequence

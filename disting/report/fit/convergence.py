@@ -36,8 +36,8 @@ def hits_in_words(candidate: Candidate) -> str:
 
 
 def waterfall(candidate: Candidate) -> FigureFiles:
-    """Cost of each start after the rough search, in rising order; a long flat stretch at the
-    bottom tells of a safe optimum.
+    """Cost of each start after the rough search, in rising order; a long flat stretch at the bottom
+    indicates a reliable optimum.
     """
     costs = np.array([cost for cost in candidate.estimate.costs if isfinite(cost)])
     hit = np.arange(len(costs)) < hits(candidate)
@@ -80,9 +80,7 @@ def waterfall(candidate: Candidate) -> FigureFiles:
 
 
 def profile_panels(candidate: Candidate, task: Task, profiles: Sequence[Profile]) -> FigureFiles:
-    """Smallest cost at each value of a parameter, beside the parabola that its standard error
-    stands for.
-    """
+    """Smallest cost at each value of a parameter, with the parabola of its standard error."""
     title = "Smallest cost at each value of one parameter, all others fitted anew"
 
     def rows(columns: int) -> int:

@@ -73,7 +73,7 @@ def _panels(
     thresholds: Thresholds,
     values: Callable[[Sweep], Real],
 ) -> FigureFiles:
-    """One panel a criterion, the threshold in use dashed, its value written beside it."""
+    """One panel a criterion, the threshold in use dashed, with its value."""
 
     def draw(figure: "Figure") -> None:
         """A panel a criterion, side by side or one below the other."""

@@ -234,7 +234,7 @@ def _measured_twice(
 
 
 def correlated_residuals(selection: Selection) -> Iterator[str]:
-    """Residuals that hang together: what is left is not noise."""
+    """Correlated residuals: the remainder is not noise."""
     candidate, cost = selection.described, selection.task.cost
     plant = selection.task.plant(candidate.chain)
     values = [candidate.estimate.parameters[n] for n in selection.task.names(candidate.chain)]

@@ -19,8 +19,8 @@ from disting.report.fit.words import percent, readable
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """An item of the selected structure's menu, the others that it parts from that with the power
-    that is asked for, and those that are left, with the power that it has against them.
+    """An item of the selected structure's menu, the others that it distinguishes from that with the
+    required power, and those that remain, with the power that it has against them.
     """
 
     item: Item
@@ -30,7 +30,7 @@ class Reach:
 
 def repeat_command(lead: ChainAdvice) -> str:
     """The command that fits what the first sentence advises together with the data of the fit, NEW
-    its file; "" where the file of the fit does not tell its command, or leaves one structure.
+    its file; "" where the file of the fit does not state its command, or leaves one structure.
     """
     if not lead.named.command or len(lead.left) < 2:
         return ""
@@ -49,8 +49,7 @@ def first_sentence(lead: ChainAdvice) -> str:
 
     Structures that contain the selected one are no rivals: if it is that one, no experiment
     excludes them. The powers are those at the fitted values, before a rival refits: upper bounds.
-    Where
-    one structure is left the sentence says so, and what would narrow its worst parameter.
+    Where one structure is left the sentence states it, and what would narrow its worst parameter.
     """
     if len(lead.left) == 1:
         return "; ".join(_alone(lead.named, lead.source))
@@ -76,7 +75,9 @@ def first_sentence(lead: ChainAdvice) -> str:
 
 
 def _alone(named: FitRecord, source: str) -> Iterator[str]:
-    """That nothing is to be told apart, what is not known beside it, and the worst parameter."""
+    """Sentences that nothing is to be distinguished, what else is unknown, and the worst
+    parameter.
+    """
     yield (
         f"{source} leaves {reference(named.model)} alone: no further measurement is needed to"
         " distinguish structures"

@@ -33,8 +33,8 @@ SAYS = {
 
 @dataclass(frozen=True)
 class ChainAdvice:
-    """All that is known: how the structures stand, the menu of each group, and what each would
-    show; `seen` is None where the file does not tell the lines.
+    """All that is known: the relations of the structures, the menu of each group, and what each
+    would show; `seen` is None where the file does not state the lines.
     """
 
     source: str
@@ -71,7 +71,7 @@ class ChainAdvice:
 
 
 def set_in_words(lead: ChainAdvice) -> Iterator[str]:
-    """The structures with their drawings, which of them are groups, and what is not asked."""
+    """The structures with their drawings, their groups, and what is not considered."""
     yield f"{len(lead.left)} structures that the fit left:"
     width = max(len(survivor.name) for survivor in lead.left)
     for survivor in lead.left:
@@ -224,7 +224,7 @@ def _origin(survivor: Survivor) -> str:
 
 
 def _apart(lead: ChainAdvice) -> Iterator[tuple[str, ...]]:
-    """Rows of pairs of different classes: what is told apart now stays so."""
+    """Rows of pairs of different classes: pairs that are distinguished now stay so."""
     for a, b in combinations(range(len(lead.left)), 2):
         if lead.stood.reason(a, b) is Reason.EQUAL:
             continue
@@ -243,7 +243,7 @@ def cheapest_first(lead: ChainAdvice, seen: Predictions, structure: int) -> list
 
 
 def _nearest(lead: ChainAdvice, seen: Predictions, item: Item) -> tuple[int, Step] | None:
-    """Of all structures the one that an item tells least from the selected one."""
+    """The structure that an item distinguishes least from the selected one."""
     steps = [(k, seen.least(0, item, k)) for k in range(1, len(lead.left))]
     nearest = [(k, least[0]) for k, least in steps if least is not None]
     return min(nearest, key=lambda both: both[1], default=None)

@@ -73,7 +73,7 @@ class Site:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A command, and what it tells."""
+    """A command, and the information that it gives."""
 
     purpose: str
     command: str
@@ -89,9 +89,7 @@ def folders_near(folder: Path) -> Path:
 
 
 def _pages(chain: Chain) -> Iterator[tuple[str, str, str]]:
-    """Name, file and fragment of the pages that tell of a structure, the one that tells most
-    first.
-    """
+    """Name, file and fragment of the pages that describe a structure, the most detailed first."""
     if chain.gap_damper:  # no catalogue has it
         return
     chain = listed_form(chain).chain
@@ -143,8 +141,8 @@ def commands(selection: Selection) -> tuple[str, ...]:
 
 
 def _without_zeros(chain: Chain, values: Mapping[str, float]) -> tuple[Chain, dict[str, float]]:
-    """The chain without dampers that are zero, as far as it has a name, and its values; beside one
-    of several springs a damper that is as good as zero.
+    """The chain without dampers that are zero, as far as it has a name, and its values; in parallel
+    with one of several springs a negligible damper instead.
     """
     springs = [name for name in chain.parameters if name[0] == "d"]
     other_chain = replace(
@@ -179,7 +177,7 @@ def step_to(member: Member, twin: Twin) -> Step:
 
 
 def next_command(plan: "Plan") -> str:
-    """The command that tells which other experiment tells two structures apart."""
+    """The command that lists the experiments that distinguish two structures."""
     return f"disting next {command_names(plan.model, plan.other)}"
 
 

@@ -69,7 +69,7 @@ def actuators_in_words(actuators: Sequence[Parts]) -> str:
 
 
 def fold_names(names: Iterable[str]) -> list[str]:
-    """Return names of structures, each mechanics once, with the actuators beside it.
+    """Return names of structures, each mechanics once, with its actuators.
 
     >>> fold_names(["3:1+b1+delay", "2:1", "3:1+b1+lag", "3:1+b1"])
     ['3:1+b1 (alone, +delay, +lag)', '2:1']

@@ -1,5 +1,5 @@
 """A fit of networks as a page with figures: the answer first, then values, responses, the list of
-networks with what cannot be told apart.
+networks with those that cannot be distinguished.
 """
 
 import csv
@@ -32,7 +32,7 @@ COLUMNS = ("network", "values", "determined", "chi2_per_line", "standing", "same
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShownNetwork:
-    """A network with its drawing and values; `same`: those that cannot be told from it."""
+    """A network with its drawing and values; `same`: those that cannot be distinguished from it."""
 
     name: str
     drawing: Markup
@@ -87,7 +87,9 @@ def network_page(selection: NetworkSelection, figures: Sequence[FigureFiles], fo
 
 
 def shown(fit: FittedNetwork) -> ShownNetwork:
-    """Return a fitted network with those that cannot be told from it, as the page shows them."""
+    """Return a fitted network with those that cannot be distinguished from it, as the page shows
+    them.
+    """
     return ShownNetwork(
         fit.network.name,
         drawing(draw_network(fit.network)),

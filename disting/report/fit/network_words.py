@@ -68,7 +68,7 @@ def interval_words(interval: Interval) -> str:
 
 
 def value_lines(fit: FittedNetwork) -> Iterator[str]:
-    """Yield the values of a fitted network and of those that cannot be told from it."""
+    """Yield the values of a fitted network and of those that cannot be distinguished from it."""
     yield f"{fit.network.name}, values and 95 % intervals:"
     yield from _aligned(value_rows(fit.network, fit.values, fit.intervals))
     for twin in fit.twins:
@@ -91,7 +91,7 @@ def _aligned(rows: list[ValueRow]) -> Iterator[str]:
 
 
 def standing(fit: FittedNetwork) -> str:
-    """Return what the data say of a network: excluded, by which, or not."""
+    """Return the status of a network by the data: excluded, by which, or not."""
     if not fit.explains:
         return "does not explain the data"
     if fit.contains:
@@ -100,5 +100,5 @@ def standing(fit: FittedNetwork) -> str:
 
 
 def same_words(fit: FittedNetwork) -> str:
-    """Return the networks that no data tell from this one, "" if there are none."""
+    """Return the networks that no data distinguish from this one, "" if there are none."""
     return BAR.join(fit.same)

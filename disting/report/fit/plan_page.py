@@ -50,8 +50,8 @@ def write_plans(
     figure, the lines and the spectrum to run; return the paths, in order.
 
     `reverse`: plans against the selected structure, if one that gives its response or contains it
-    is true; `file` is the fit that names the rivals, `source` says where the noise is known from.
-    The same plans give the same bytes.
+    is true; `file` is the fit that names the rivals, `source` gives the origin of the noise. The
+    same plans give the same bytes.
     """
     folder.mkdir(parents=True, exist_ok=True)
     shown = [_shown(plan, best, folder, k) for k, (plan, best) in enumerate(plans, 1)]
@@ -121,7 +121,7 @@ def _page(
 
 
 def _onward(named: FitRecord | NamedNetworks, file: Path) -> list[Step]:
-    """Return the command for what no data of this kind tell apart."""
+    """Return the command for what no data of this kind distinguish."""
     command = f"disting next {shlex.quote(str(file))}"
     return [Step("Which other experiment separates them:", command)] if named.same else []
 

@@ -134,7 +134,7 @@ def _drawn(structure: AnyStructure) -> str:
 
 
 def answer_in_words(plan: Plan) -> str:
-    """Return whether more measuring tells both apart, and how much, in a sentence."""
+    """Return whether more measuring distinguishes both, and how much, in a sentence."""
     model, name = plan.names
     if plan.rival is None:
         other = next_command(plan)
@@ -171,7 +171,7 @@ def _doubt(rival: Rival) -> str:
 
 
 def _same(plan: Plan, rival: Rival) -> str:
-    """Why a rival that fits within rounding does so, although the verdict does not say so."""
+    """Why a rival that fits within rounding does so, although the verdict does not state it."""
     model, name = plan.names
     thing, where = _words(plan.model)
     if plan.is_contained:

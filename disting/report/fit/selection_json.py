@@ -133,7 +133,7 @@ def _statement_to_dict(statement: Statement) -> dict[str, Any]:
 
 
 def _joint_to_dict(selection: Selection) -> dict[str, Any]:
-    """Each response with what is said of it alone, and those from which nothing is learned."""
+    """Each response with its own results, and those without information."""
     judging, described = selection.judging, selection.described
     each = explanations(
         judging, described.residual, described.missed, selection.explanation.scatter

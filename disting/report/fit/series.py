@@ -29,7 +29,7 @@ FINE = 1e-3  # of the range of a curve: less is not seen
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Measured points beside the model's line, and how much they scatter."""
+    """Measured points with the model's line, and how much they scatter."""
 
     label: str
     measured: FrequencyResponse
@@ -82,8 +82,8 @@ def points(panel: "Axes", s: Series, values: Real, label: str = "") -> None:
 
 
 def bars(panel: "Axes", s: Series, values: Real, low: Real, high: Real) -> None:
-    """Error bars from `low` to `high` where the data tell their scatter, at lines that are
-    spread over the axis.
+    """Error bars from `low` to `high` where the data give their scatter, at lines that are spread
+    over the axis.
     """
     if not s.has_bars:
         return

@@ -174,7 +174,7 @@ def result_unit(result: Result, measured: FrequencyResponse) -> str:
 
 
 def response_unit(measured: FrequencyResponse) -> str:
-    """Unit of G, "" where the data do not tell."""
+    """Unit of G, "" where the data do not give it."""
     force, motion = measured.input.unit, measured.output.unit
     return f"{typeset(motion)} per {force}" if force and motion else ""
 

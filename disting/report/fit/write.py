@@ -82,7 +82,7 @@ def lines_csv(plan: Plan, best: Design) -> str:
 
 
 def plan_figure(plan: Plan, best: Design, file: str = "plan") -> FigureFiles:
-    """Difference of the two structures over frequency beside the noise, and the shares of the power
+    """Difference of the two structures over frequency with the noise, and the shares of the power
     of the optimal spectrum below; `file`: its name without ending.
     """
     model, name = plan.names
@@ -229,9 +229,9 @@ def _files(
 
 
 def export(selection: Selection, measured: FrequencyResponse) -> list[NumberedStructure]:
-    """The structures that the data leave, the selected one first, then what may as well be one of
-    them; further parameter sets of one structure are numbered. Others than the selected one are
-    left out where the data do not determine all of their parameters (`not_exported`).
+    """The structures that the data leave, the selected one first, then other possible ones; further
+    parameter sets of one structure are numbered. Others than the selected one are left out where
+    the data do not determine all of their parameters (`not_exported`).
     """
     kept = [m for m in selection.members if m.name not in not_exported(selection)]
     fitted = [m.candidate for m in kept] or [c for c in (selection.selected,) if c is not None]

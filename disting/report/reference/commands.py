@@ -14,9 +14,7 @@ NAME, TITLE = "commands", "All commands and options"
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """An argument or an option: how it is written, what it says, what may be given and what holds
-    where nothing is.
-    """
+    """An argument or an option: its notation, its help, its possible values and its default."""
 
     anchor: str
     written: tuple[str, ...]

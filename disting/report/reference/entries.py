@@ -2,8 +2,8 @@
 the package's source, without importing it.
 
 A name that a package hands on (`from .. import X as X`) is followed to the module that defines it.
-Types and defaults are those that stand in the source: an annotation that is evaluated reads
-differently with every version of NumPy and Python.
+Types and defaults are those in the source: an annotation that is evaluated reads differently with
+every version of NumPy and Python.
 """
 
 import ast
@@ -32,8 +32,8 @@ class Place:
 class Module:
     """Definitions and imports of a module, by name, and its docstring.
 
-    `texts`: the string below an assignment, which says what it is. `handed_on`: names that it
-    imports for others.
+    `texts`: the string below an assignment, which describes it. `handed_on`: names that it imports
+    for others.
     """
 
     name: str

@@ -1,8 +1,8 @@
 """The reference of the public Python names: a page a module. Docstrings become HTML: paragraphs,
 lists, examples, and names in backticks that lead to where they are explained.
 
-What is a sign of Markdown elsewhere is text here: `m1*k12`, `[1FS]=[2]` and `G_0` stand in
-docstrings as they are.
+What is a sign of Markdown elsewhere is text here: `m1*k12`, `[1FS]=[2]` and `G_0` are written so in
+docstrings.
 """
 
 import re
@@ -179,8 +179,8 @@ def _shown(
 
 
 def _address(module: str, addresses: Mapping[Place, str], name: str) -> str:
-    """Where a name leads that stands in the source of a module: `Chain`, `Chain.parameters`,
-    `View.EXACT` or `fit.select`.
+    """Target of a name in the source of a module: `Chain`, `Chain.parameters`, `View.EXACT` or
+    `fit.select`.
     """
     head, _, rest = name.partition(".")
     at = definition(Place(module, head))
