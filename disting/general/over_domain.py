@@ -44,7 +44,7 @@ def confirms(
         return False
     pair = left.view.given, right.view.given
     if isinstance(evidence, OverDomain):
-        pair = _unnamed(left, right)
+        pair = _strip_names(left, right)
     return model_evidence.confirms_models(evidence, *pair, representation)
 
 
@@ -102,12 +102,12 @@ def _question(
     """For networks that are equivalent by a theorem only a map without exception adds
     information.
     """
-    told = _theorem(left, right, domain)
-    question = ADMISSIBLY[domain] if told is None else PLAIN_MAPS
-    return question, _unnamed(left, right)
+    decided = _theorem(left, right, domain)
+    question = ADMISSIBLY[domain] if decided is None else PLAIN_MAPS
+    return question, _strip_names(left, right)
 
 
-def _unnamed(left: NetworkSide, right: NetworkSide) -> tuple[AnyModel, AnyModel]:
+def _strip_names(left: NetworkSide, right: NetworkSide) -> tuple[AnyModel, AnyModel]:
     """Both in the form in which they are decided over real and positive parameters."""
     return left.view.asked_about[0], right.view.asked_about[1]
 
@@ -122,8 +122,8 @@ def _theorem(left: NetworkSide, right: NetworkSide, domain: Domain) -> Finding |
 def _is_asked(left: NetworkSide, right: NetworkSide, domain: Domain) -> bool:
     renamed = left.colouring.fingerprint == right.colouring.fingerprint
     written = left.view.is_writable and right.view.is_writable
-    told = _theorem(left, right, domain)
-    evidence = None if told is None else told.evidence
+    decided = _theorem(left, right, domain)
+    evidence = None if decided is None else decided.evidence
     settled = evidence is not None and evidence.without_exception(domain)
     return written and not renamed and not settled
 
