@@ -150,7 +150,7 @@ if TYPE_CHECKING:
 
 if not TYPE_CHECKING:  # else any name would be right to a type checker
 
-    def _offered():
+    def _with_public_names():
         """This package, from now on with its public names, which are imported when they are used.
 
         Called when the first of them is: `import disting` alone loads no other module.
@@ -162,7 +162,7 @@ if not TYPE_CHECKING:  # else any name would be right to a type checker
         return offer(__name__)
 
     def __getattr__(name):
-        return getattr(_offered(), name)
+        return getattr(_with_public_names(), name)
 
     def __dir__():
-        return dir(_offered())
+        return dir(_with_public_names())

@@ -126,14 +126,14 @@ def state_space(chain: Chain, values: dict[str, float], sign: int = 1) -> StateS
     for _ in range(chain.sensor.order):
         c, d = c @ a, c @ b
     if chain.lag:
-        a, b, c, d = _lagged(a, b, c, d, values["T1"])
+        a, b, c, d = _add_lag(a, b, c, d, values["T1"])
     units = {f"x{i}": "m" for i in range(1, n + 1)} | {f"v{i}": "m/s" for i in range(1, n + 1)}
     units |= {"F": "N"} if chain.lag else {}
     ports = {"u": "N", "y": chain.sensor.unit}
     return StateSpace(a, b, c, d, values.get("Td", 0.0), tuple(units), units | ports)
 
 
-def _lagged(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real, Real, Real]:
+def _add_lag(a: Real, b: Real, c: Real, d: Real, time: float) -> tuple[Real, Real, Real, Real]:
     """The force follows the input through 1/(1 + s T1)."""
     n = len(a)
     whole = np.block([[a, b], [np.zeros((1, n)), np.full((1, 1), -1.0 / time)]])

@@ -212,7 +212,7 @@ def write_whole(path: Path, content: bytes | Iterable[str]) -> Path:
     """
     parts = (content,) if isinstance(content, bytes) else map(in_bytes, content)
     try:
-        with _opened(path) as file:
+        with _open_replacement(path) as file:
             file.writelines(parts)
     except OSError as reason:
         raise OSError(reason.errno, reason.strerror, str(path)) from None
@@ -225,7 +225,7 @@ def in_bytes(text: str) -> bytes:
 
 
 @contextlib.contextmanager
-def _opened(path: Path) -> Iterator[BinaryIO]:
+def _open_replacement(path: Path) -> Iterator[BinaryIO]:
     """A file that takes the place of the one that a path leads to at the end, or what it leads to
     where that is no plain file.
     """

@@ -36,9 +36,9 @@ def colouring(columns: Columns, start: tuple[str, ...]) -> Colouring:
     """Refine the start colours (one text a variable) until no class splits."""
     colours = start
     while True:
-        values, seen = columns([_number(c) for c in colours])
+        values, own = columns([_number(c) for c in colours])
         refined = tuple(
-            _digest(c, *map(str, column)) for c, column in zip(colours, seen, strict=True)
+            _digest(c, *map(str, column)) for c, column in zip(colours, own, strict=True)
         )
         if len(set(refined)) == len(set(colours)):
             return Colouring(refined, values)
@@ -50,10 +50,10 @@ def renamings(left: Columns, right: Columns, size: int) -> Iterator[tuple[int, .
 
     Every renaming is among them; a candidate is to be verified.
     """
-    yield from _matched(left, right, colouring(left, ("",) * size), colouring(right, ("",) * size))
+    yield from _match(left, right, colouring(left, ("",) * size), colouring(right, ("",) * size))
 
 
-def _matched(
+def _match(
     left: Columns, right: Columns, own: Colouring, other: Colouring
 ) -> Iterator[tuple[int, ...]]:
     if own.fingerprint != other.fingerprint:
@@ -65,15 +65,15 @@ def _matched(
         return
     chosen = tied[0]
     for partner in (j for j, colour in enumerate(other.colours) if colour == own.colours[chosen]):
-        yield from _matched(
+        yield from _match(
             left,
             right,
-            colouring(left, _individualised(own.colours, chosen)),
-            colouring(right, _individualised(other.colours, partner)),
+            colouring(left, _individualise(own.colours, chosen)),
+            colouring(right, _individualise(other.colours, partner)),
         )
 
 
-def _individualised(colours: tuple[str, ...], chosen: int) -> tuple[str, ...]:
+def _individualise(colours: tuple[str, ...], chosen: int) -> tuple[str, ...]:
     return tuple(_digest(c, "chosen") if i == chosen else c for i, c in enumerate(colours))
 
 

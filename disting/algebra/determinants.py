@@ -80,13 +80,13 @@ def rank(rows: Sequence[Sequence[fmpz_mpoly]], seconds: float) -> int:
         for i in range(done + 1, len(work)):
             if monotonic() > end:
                 raise OutOfTimeError(f"more than {seconds:g} s")
-            work[i] = _reduced(work[i], work[done], column, columns, previous)
+            work[i] = _eliminate_step(work[i], work[done], column, columns, previous)
         previous = work[done][column]
         done += 1
     return done
 
 
-def _reduced(
+def _eliminate_step(
     row: Sequence[fmpz_mpoly],
     pivot: Sequence[fmpz_mpoly],
     column: int,

@@ -74,12 +74,12 @@ def _flats(matrix: Words, bits: Words, modulus: int) -> list[Flat]:
     outside = int(np.count_nonzero(~inside))
     order = np.argsort(inside, kind="stable")
     matrix, bits = matrix[:, order], bits[order]
-    for dependent in _crossing(_mixed(matrix, modulus), bits, outside, modulus):
+    for dependent in _crossing(_mix_rows(matrix, modulus), bits, outside, modulus):
         for flat in flats:
-            dependent = _unexplained(dependent, *flat)
+            dependent = _find_other_circuits(dependent, *flat)
         while dependent.size:
-            flats.append(_spanned(matrix, bits, int(dependent[0]), modulus))
-            dependent = _unexplained(dependent, *flats[-1])
+            flats.append(_span_circuit(matrix, bits, int(dependent[0]), modulus))
+            dependent = _find_other_circuits(dependent, *flats[-1])
     return flats
 
 
@@ -89,9 +89,9 @@ def _has_circuit(bits: Words, size: int, flats: list[Flat]) -> bool:
     """
     sets = np.zeros(1, np.uint64)
     for s in range(size):
-        sets = _joined([sets[: comb(c, s)] | bits[c] for c in range(s, len(bits))])
+        sets = _join_words([sets[: comb(c, s)] | bits[c] for c in range(s, len(bits))])
     for flat in flats:
-        sets = _unexplained(sets, *flat)
+        sets = _find_other_circuits(sets, *flat)
     return bool(sets.size)
 
 
@@ -117,8 +117,8 @@ def _crossing(matrix: Words, bits: Words, first: int, modulus: int) -> Iterator[
             old, new = slice(counts[t]), slice(starts[t], starts[t] + counts[t])
             grown[new], later = sets[old] | bits[t], longer[t + 1 :, :, new]
             later[:] = _quotients(reduced[t, :, old], reduced[t + 1 :, :, old], modulus)
-            closed.append(_closed(grown[new], later, bits[t + 1 :]))
-        yield _joined(closed)
+            closed.append(_close_sets(grown[new], later, bits[t + 1 :]))
+        yield _join_words(closed)
         sets, reduced, counts = grown, longer, starts if size else starts * among
 
 
@@ -132,19 +132,19 @@ def _parts(
         for start in range(0, counts[t], step):
             part = slice(start, min(start + step, counts[t]))
             later = _quotients(reduced[t, :, part], reduced[t + 1 :, :, part], modulus)
-            yield _joined(list(_from(sets[part] | bits[t], later, bits[t + 1 :], modulus)))
+            yield _join_words(list(_from(sets[part] | bits[t], later, bits[t + 1 :], modulus)))
 
 
 def _from(sets: Words, reduced: Words, bits: Words, modulus: int) -> Iterator[Words]:
     """Dependent sets that start with these, all of which have the same later columns."""
-    yield _closed(sets, reduced, bits)
+    yield _close_sets(sets, reduced, bits)
     if reduced.shape[1] > 1:
         for t in range(len(bits) - 1):
             later = _quotients(reduced[t], reduced[t + 1 :], modulus)
             yield from _from(sets | bits[t], later, bits[t + 1 :], modulus)
 
 
-def _closed(sets: Words, reduced: Words, bits: Words) -> Words:
+def _close_sets(sets: Words, reduced: Words, bits: Words) -> Words:
     """The sets (b,) with each column whose (columns, rows, b) has become zero added."""
     column, place = _zero(reduced, 1).nonzero()
     closed: Words = sets[place] | bits[column]
@@ -175,7 +175,7 @@ def _pivot_first(row: Words, others: Words) -> tuple[Words, Words]:
     return row, others
 
 
-def _mixed(matrix: Words, modulus: int) -> Words:
+def _mix_rows(matrix: Words, modulus: int) -> Words:
     """The rows in another basis, by a unit triangular matrix, so that hardly a leading number
     is zero by chance.
     """
@@ -189,11 +189,11 @@ def _mixed(matrix: Words, modulus: int) -> Words:
     return mixed
 
 
-def _joined(parts: list[Words]) -> Words:
+def _join_words(parts: list[Words]) -> Words:
     return np.concatenate(parts) if parts else np.zeros(0, np.uint64)
 
 
-def _unexplained(sets: Words, flat: int, rank: int) -> Words:
+def _find_other_circuits(sets: Words, flat: int, rank: int) -> Words:
     """The sets that have at most `rank` columns in the flat, so that their dependence is
     another one.
     """
@@ -201,7 +201,7 @@ def _unexplained(sets: Words, flat: int, rank: int) -> Words:
     return sets[few]
 
 
-def _spanned(matrix: Words, bits: Words, dependent: int, modulus: int) -> Flat:
+def _span_circuit(matrix: Words, bits: Words, dependent: int, modulus: int) -> Flat:
     """The flat that a circuit in the dependent set spans."""
     within = (bits & np.uint64(dependent)) != 0
     chosen = [int(c) for c in np.flatnonzero(within)]
@@ -300,7 +300,7 @@ def matroid(jacobian: nmod_mat, limit: int) -> Matroid:
         [[int(e) for e in row] for row in reduced.tolist()[:rank]], dtype=np.uint64
     ).reshape(rank, size)
     pivots = [int(np.flatnonzero(row)[0]) for row in table]
-    parts = _connected(table)
+    parts = _components(table)
     modulus = int(jacobian.modulus())
     return Matroid(
         size, rank, tuple(_component(table, pivots, rows, modulus, limit) for rows in parts)
@@ -348,7 +348,7 @@ def _greedy(c: Component, rows: frozenset[int], bound: int) -> int:
     return len(basis)
 
 
-def _connected(table: np.ndarray) -> list[Rows]:
+def _components(table: np.ndarray) -> list[Rows]:
     """Connected components: rows joined where a basis row and another share a non-zero entry
     (fundamental circuits).
     """

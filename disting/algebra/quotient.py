@@ -48,7 +48,7 @@ def lowest_terms(
     denominators = [d.right_shift(power) for d in den_derivatives]
     common = num.gcd(den)
     if common.degree() > 0:
-        return _cancelled(num, den, numerators, denominators, common)
+        return _cancel(num, den, numerators, denominators, common)
     return _monic(num, den, numerators, denominators)
 
 
@@ -58,8 +58,8 @@ def coefficient_rows(
     """The first `count` coefficients, and for each the row of its derivatives (count x number
     of derivatives).
     """
-    columns = [_padded(d, count) for d in derivatives]
-    return _padded(polynomial, count), (
+    columns = [_pad_coefficients(d, count) for d in derivatives]
+    return _pad_coefficients(polynomial, count), (
         [list(row) for row in zip(*columns, strict=True)] if columns else [[]] * count
     )
 
@@ -116,7 +116,7 @@ def _monic(
     )
 
 
-def _cancelled(
+def _cancel(
     num: nmod_poly,
     den: nmod_poly,
     numerators: list[nmod_poly],
@@ -139,6 +139,6 @@ def _valuation(polynomial: nmod_poly) -> int:
     return next((i for i in range(polynomial.length()) if int(polynomial[i])), polynomial.length())
 
 
-def _padded(polynomial: nmod_poly, count: int) -> list[int]:
+def _pad_coefficients(polynomial: nmod_poly, count: int) -> list[int]:
     numbers = [int(c) for c in polynomial.coeffs()]
     return numbers[:count] + [0] * (count - len(numbers))

@@ -238,7 +238,7 @@ class Notation:
         """A rational function factorised, a sum term by term."""
         if not isinstance(of, RationalFunction):
             return self._sum(of)
-        number, powers = _factorised(of)
+        number, powers = _factorise(of)
         return self.product(number, [(str(p) if len(p) == 1 else terms(p), e) for p, e in powers])
 
     def product(self, number: Fraction, powers: Sequence[Power]) -> str:
@@ -330,11 +330,11 @@ def expression(of: RationalFunction | Sum) -> Expr:
 
     if not isinstance(of, RationalFunction):
         return Add(*(Mul(c, *(symbol(n) ** e for n, e in powers.items())) for c, powers in of))
-    number, factored = _factorised(of)
+    number, factored = _factorise(of)
     return Mul(Rational(number), *(expression(terms(p)) ** e for p, e in factored))
 
 
-def _factorised(of: RationalFunction) -> tuple[Fraction, list[tuple[Polynomial, int]]]:
+def _factorise(of: RationalFunction) -> tuple[Fraction, list[tuple[Polynomial, int]]]:
     """The number, and the other factors with their exponents."""
     (above, top), (below, bottom) = factors(of.num), factors(of.den)
     return Fraction(above, below), [*top, *((p, -e) for p, e in bottom)]

@@ -93,7 +93,7 @@ def profile(
     markov = count if representation is Representation.MARKOV else None
     size, constants = model.minor_size(markov), model.constants(markov)
     points = enough(size, settings.points)
-    seen = list(samples(model, representation, count, points, settings.seed))
+    drawn = list(samples(model, representation, count, points, settings.seed))
     searches = (
         seen_at(draw_point(model, label, SEARCH_BITS), representation, count)
         for label in search_labels(settings.seed)
@@ -101,7 +101,7 @@ def profile(
     settings = replace(settings, subset_limit=min(settings.subset_limit, model.most_subsets))
     degrees = tuple(chain.from_iterable(model.degrees))
     sampled = from_samples(
-        seen, searches, frozenset(constants), degrees, count, model.n_states, size, settings
+        drawn, searches, frozenset(constants), degrees, count, model.n_states, size, settings
     )
     values = zip(sampled.labels, sampled.constants, strict=True)
     return replace(
@@ -126,11 +126,11 @@ def inverse_profile(structure: Structure, count: int, settings: Settings) -> Pro
     size = model.minor_size(count)
     seed = f"{settings.seed}:inverse"
     points = range(enough(size, settings.points))
-    seen = [_inverse_at(draw_point(model, f"{seed}:{k}"), count) for k in points]
+    drawn = [_inverse_at(draw_point(model, f"{seed}:{k}"), count) for k in points]
     searches = (
         _inverse_at(draw_point(model, label, SEARCH_BITS), count) for label in search_labels(seed)
     )
-    return from_samples(seen, searches, frozenset(), (0, 0), count, model.n_states, size, settings)
+    return from_samples(drawn, searches, frozenset(), (0, 0), count, model.n_states, size, settings)
 
 
 def _inverse_at(where: DrawnPoint, count: int) -> Sample:

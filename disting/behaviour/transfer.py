@@ -137,7 +137,7 @@ def receptance(
             num_gradient[element.parameter] = d_num * others + d_den * rest
             den_gradient[element.parameter] = d_den * others
     plain = Rational(num, den, num_gradient, den_gradient)
-    return _lagged(plain, values["T1"], s, unit) if structure.lag else plain
+    return _add_lag(plain, values["T1"], s, unit) if structure.lag else plain
 
 
 def plain_receptance(
@@ -235,7 +235,7 @@ def _sum(rows: Sequence[_RowMatrix[Ring]], unit: Ring) -> tuple[Ring, Ring]:
     return den, num
 
 
-def _lagged(plain: Rational[Ring], time_constant: Ring, s: Ring, unit: Ring) -> Rational[Ring]:
+def _add_lag(plain: Rational[Ring], time_constant: Ring, s: Ring, unit: Ring) -> Rational[Ring]:
     factor = unit + time_constant * s
     gradient = {name: d * factor for name, d in plain.den_gradient.items()} | {"T1": s * plain.den}
     return Rational(plain.num, plain.den * factor, plain.num_gradient, gradient)

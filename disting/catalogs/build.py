@@ -279,9 +279,9 @@ def false_findings(
     classes = stored.found
     place = {canonical(chain).chain: i for i, chain in enumerate(classes.chains)}
     findings = read_findings(place, folder)
-    asked = [(finding, *pair, settings) for pair, finding in findings.items()]
+    tasks = [(finding, *pair, settings) for pair, finding in findings.items()]
     for done, ((finding, *chains, _), is_true) in enumerate(
-        map_tasks(finding_holds, asked, executor), 1
+        map_tasks(finding_holds, tasks, executor), 1
     ):
         left, right = (place[chain] for chain in chains)
         pair = stored.pair_text(left, right)
@@ -289,7 +289,7 @@ def false_findings(
             yield f"{pair}: the evidence does not hold"
         if classes.relation(left, right) is not DECIDES.get(finding.outcome):
             yield f"{pair}: settled, but not in the file"
-        progress("settled evidence", done, len(asked))
+        progress("settled evidence", done, len(tasks))
 
 
 def verify_networks(

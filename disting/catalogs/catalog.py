@@ -461,11 +461,11 @@ def catalog(n_masses: int, *, damped: bool = True, folder: Path | None = None) -
             f"catalogues of 1 to 5 masses are shipped, not of {n_masses}; make it with 'disting"
             " catalog build'"
         )
-    return _shipped(n_masses, damped) if folder is None else _read(folder, n_masses, damped)
+    return _load_shipped(n_masses, damped) if folder is None else _read(folder, n_masses, damped)
 
 
 @lru_cache(maxsize=2)  # a look-up asks for the verdict, then for what is known of each model
-def _shipped(n_masses: int, damped: bool) -> Catalog:
+def _load_shipped(n_masses: int, damped: bool) -> Catalog:
     return _read(shipped_folder(), n_masses, damped)
 
 

@@ -309,7 +309,7 @@ def text_of(the_family: DamperFamily, settings: Settings) -> str:
     header |= {
         "command": f"{COMMAND} {family.n_masses}",
         "settings": settings.to_dict(),
-        "tests": list(map(_written, classes.tests)),
+        "tests": list(map(_rule_key, classes.tests)),
     }
     header |= {"undecided": sorted(map(list, classes.open_groups))}
     records = [header]
@@ -347,7 +347,7 @@ def write(family: DamperFamily, settings: Settings, folder: Path) -> Path:
     return path
 
 
-def _written(name: str) -> int | str:
+def _rule_key(name: str) -> int | str:
     """The name of a rule as the files have it: numbers of one digit, and the exact decision
     after those of the paper.
     """

@@ -167,7 +167,7 @@ def provenance_of(folder: Path) -> Record:
             {"disting": __version__, "python": platform.python_version()}
             | {name: version(name) for name in ("numpy", "python-flint")}
         ),
-        "files": {p.name: _told(p) for p in sorted(folder.glob("*.jsonl"))},
+        "files": {p.name: _text_of(p) for p in sorted(folder.glob("*.jsonl"))},
     }
 
 
@@ -179,5 +179,5 @@ def write_provenance(folder: Path) -> Path:
     )
 
 
-def _told(path: Path) -> str:
+def _text_of(path: Path) -> str:
     return f"{digest(path)}:{path.stat().st_size}" if path.name == SETTLED else digest(path)

@@ -79,7 +79,7 @@ def search_in_brief(
         a, b = own[i], own[j]
         if a == b:
             continue  # a theorem tells it
-        finding = _ordered(by_parts if in_order(a, b) in by_parts else answers, a, b)
+        finding = _order_finding(by_parts if in_order(a, b) in by_parts else answers, a, b)
         if (a, b) != (i, j):
             finding = of_equals(finding, sides[a].name, sides[b].name)
         question, models = positive_question(sides[i], sides[j])
@@ -87,7 +87,7 @@ def search_in_brief(
             engine.remember(question, models, finding)
 
 
-def _ordered(answers: Mapping[Pair, Finding], i: int, j: int) -> Finding:
+def _order_finding(answers: Mapping[Pair, Finding], i: int, j: int) -> Finding:
     return answers[i, j] if i < j else answers[j, i].turned
 
 
@@ -119,7 +119,7 @@ def _of_parts(
         for missing, part in parts[whole]:
             a, b = (part, j) if left_is_part else (i, part)
             if in_order(a, b) in answers:
-                inner = of_equals(_ordered(answers, a, b), sides[a].name, sides[b].name)
+                inner = of_equals(_order_finding(answers, a, b), sides[a].name, sides[b].name)
                 finding = of_part(inner, left_is_part, missing)
                 if finding is not None:
                     yield finding
@@ -200,8 +200,8 @@ def build_networks(
         "command": f"{COMMAND} {family.name}",
         "settings": engine.settings.to_dict(),
     }
-    asked = [(without_names(s.subject),) for s in sides]
-    engine.answer_all(PARAMETERS, asked, executor=executor, progress=progress)
+    tasks = [(without_names(s.subject),) for s in sides]
+    engine.answer_all(PARAMETERS, tasks, executor=executor, progress=progress)
     models = [
         {
             "model": number,
@@ -209,7 +209,7 @@ def build_networks(
             "group": group.get(number - 1, 0),
             "identifiability": engine.answer(PARAMETERS, model, engine.settings).to_dict(),
         }
-        for number, (s, model) in enumerate(zip(sides, asked, strict=True), 1)
+        for number, (s, model) in enumerate(zip(sides, tasks, strict=True), 1)
     ]
     pairs = _pairs(engine, sides, over_complex, over_positive)
     if family.in_brief:
@@ -286,7 +286,7 @@ def recall(family: str, engine: Engine, folder: Path | None = None) -> None:
 
     >>> recall("circuits-4", Engine())
     """
-    sides, rows, records = _known(family, engine, folder)
+    sides, rows, records = _load_known(family, engine, folder)
     for side, r in zip(sides, rows, strict=False):
         answer = PARAMETERS.decode(json.dumps(r["identifiability"]))
         engine.remember(PARAMETERS, (without_names(side.subject),), answer)
@@ -314,7 +314,7 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
     """The same of one model that gives the same as a network of the family, such as that network
     with other numbers, and all others of the family.
     """
-    sides, _, records = _known(family, engine, folder)
+    sides, _, records = _load_known(family, engine, folder)
     (given,) = engine.general_subjects([model])
     itself = (i for i, s in enumerate(sides, 1) if s.asked_about[0] == given.asked_about[0])
     like = (i for i, s in enumerate(sides, 1) if replaceable(model, s.subject))
@@ -333,7 +333,7 @@ def recall_of(model: AnyModel, family: str, engine: Engine, folder: Path | None 
         engine.remember(question, models, finding)
 
 
-def _known(
+def _load_known(
     family: str, engine: Engine, folder: Path | None
 ) -> tuple[list[ComparedModel], list[Record], list[Record]]:
     """The networks of a family, and the lines of its file on them and on their pairs; none where

@@ -116,8 +116,8 @@ class NextCatalog:
         group, advice = self.groups[at - 1], self._read[at]
         if tuple(numbers) != group:
             advice = advice.only([group.index(m) for m in numbers])
-        asked = costs.kinds(self.family.n_masses)
-        return replace(advice, costs=costs) if advice.tables.keys() >= set(asked) else None
+        kinds = costs.kinds(self.family.n_masses)
+        return replace(advice, costs=costs) if advice.tables.keys() >= set(kinds) else None
 
 
 @cache
@@ -142,7 +142,7 @@ def build_next(
     """The text of the file that belongs to a catalogue, computed; the bytes do not depend on the
     machine or the order of the work.
     """
-    empty, groups = _asked(stored)
+    empty, groups = _empty_catalog(stored)
     n = empty.family.n_masses
     header: Record = {
         "schema": SCHEMA,
@@ -162,7 +162,9 @@ def build_next(
     return lines(records)
 
 
-def _asked(stored: Catalog | DamperFamily) -> tuple[NextCatalog, tuple[tuple[int, ...], ...]]:
+def _empty_catalog(
+    stored: Catalog | DamperFamily,
+) -> tuple[NextCatalog, tuple[tuple[int, ...], ...]]:
     """A catalogue without answers, and the groups that it is about."""
     if isinstance(stored, Catalog):
         return NextCatalog(stored.family, ()), stored.classes(View.EXACT)
@@ -246,7 +248,7 @@ def _further(stored: NextCatalog, record: Record) -> Menu[Chain]:
     n, numbers, tests = stored.family.n_masses, record["group"], stored.records[0]["tests"]
     try:
         tables = {
-            kind: _placed(kind, n, len(numbers), record[kind.name], tests)
+            kind: _read_placement(kind, n, len(numbers), record[kind.name], tests)
             for kind in KINDS
             if kind.name in record
         }
@@ -258,7 +260,7 @@ def _further(stored: NextCatalog, record: Record) -> Menu[Chain]:
         ) from None
 
 
-def _placed(
+def _read_placement(
     kind: Kind, n_masses: int, structures: int, plain: Record, tests: Sequence[str]
 ) -> Placement:
     """One table; a test that the file does not have is not known. Raises LookupError, TypeError or

@@ -118,8 +118,8 @@ def answers_in(catalog: Catalog) -> Iterator[tuple[Question[Any], Models, Any]]:
         if INCLUSIONS in record:
             both = inclusions_from_dict(record[INCLUSIONS])
             small, large = (i, j) if ranks[i] < ranks[j] else (j, i)
-            for question, said in ((IMAGE, both.image), (CLOSURE, both.closure)):
-                yield question, (forms[small], forms[large]), said if small == i else turn(said)
+            for question, part in ((IMAGE, both.image), (CLOSURE, both.closure)):
+                yield question, (forms[small], forms[large]), part if small == i else turn(part)
 
 
 SCHEMA = 1

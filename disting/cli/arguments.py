@@ -164,12 +164,12 @@ def conditions(text: str) -> tuple[str, ...]:
 def add_damped(parser: argparse.ArgumentParser) -> None:
     """--damped and --undamped; None if neither is given."""
     choice = parser.add_mutually_exclusive_group()
-    for name, said in (
+    for name, text in (
         ("damped", "a damper beside every spring (default)"),
         ("undamped", "springs without dampers"),
     ):
         choice.add_argument(
-            f"--{name}", dest="damped", action="store_const", const=name == "damped", help=said
+            f"--{name}", dest="damped", action="store_const", const=name == "damped", help=text
         )
 
 

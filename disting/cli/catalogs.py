@@ -185,10 +185,10 @@ def verify(options: argparse.Namespace) -> int:
                 executor=pool,
                 progress=progress,
             )
-            wrong += _told(name, texts, HOLDS_NOW + (NOT_SEARCHED.format(left) if left else ""))
+            wrong += _report(name, texts, HOLDS_NOW + (NOT_SEARCHED.format(left) if left else ""))
         for n, damped in product(sizes, (False, True)):
             texts = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
-            wrong += _told(f"{n} masses, {_kind(damped)}", texts)
+            wrong += _report(f"{n} masses, {_kind(damped)}", texts)
         for damped in (False, True) if set(CATALOGUED) <= set(sizes) else ():
             texts = verify_sizes(
                 damped=damped,
@@ -197,7 +197,7 @@ def verify(options: argparse.Namespace) -> int:
                 executor=pool,
                 progress=progress,
             )
-            wrong += _told(f"different sizes, {_kind(damped)}", texts)
+            wrong += _report(f"different sizes, {_kind(damped)}", texts)
     return 1 if wrong else 0
 
 
@@ -230,7 +230,7 @@ def _kind(damped: bool) -> str:
     return "damped" if damped else "undamped"
 
 
-def _told(
+def _report(
     what: str, texts: list[str], otherwise: str = "every byte and every evidence holds"
 ) -> list[str]:
     """Say what was found wrong, or what holds if nothing was; returns it."""

@@ -121,8 +121,8 @@ def both_ways(
     for name, other, finding in zip(names, reversed(names), shares, strict=True):
         if finding is not None:
             why = finding.evidence.sentence(name, other) if finding.evidence else finding.reason
-            seen = f" ({finding.empirical.sentence})" if finding.empirical else ""
-            yield f"{where}: {name} in {other} {finding.share}{seen}. {why}"
+            sampled = f" ({finding.empirical.sentence})" if finding.empirical else ""
+            yield f"{where}: {name} in {other} {finding.share}{sampled}. {why}"
 
 
 def look_up(chains: Sequence[Chain], asked: Query) -> Verdict | None:
@@ -195,14 +195,14 @@ def run(options: argparse.Namespace) -> int:
         chains = read_together(texts, damped=options.damped, sensor=options.quantity)
         verdict = look_up(chains, query(options.conditions, View.EXACT, options.domain))
         if verdict is not None:
-            print("\n".join(_told(in_order(chains, verdict), verdict)))
+            print("\n".join(_describe_stored(in_order(chains, verdict), verdict)))
             return 0
     from disting.cli.decision import run as decided
 
     return decided(options)
 
 
-def _told(chains: Sequence[Chain], verdict: Verdict) -> list[str]:
+def _describe_stored(chains: Sequence[Chain], verdict: Verdict) -> list[str]:
     """A verdict that was looked up, in words."""
     ways = [] if verdict.proves_shares else both_ways(verdict)
     return [explain(verdict, list(map(text_drawing, chains)), shipped_ranks(chains)), *ways]

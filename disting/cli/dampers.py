@@ -94,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
         )
     domain = Domain(options.domain or Domain.POSITIVE)
     with engine_for(options) as (engine, pool, progress):
-        asked = partial(
+        job = partial(
             dampers,
             chain,
             DamperSets(options.sets),
@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
             executor=pool,
             progress=progress,
         )
-        table, over_complex = asked(domain=domain), asked(domain=Domain.COMPLEX)
+        table, over_complex = job(domain=domain), job(domain=Domain.COMPLEX)
     if options.csv:
         emit(options.csv, table.to_csv())
     if options.csv != "-":
@@ -251,8 +251,8 @@ def _sign(table: DamperTable, over_complex: DamperTable, i: int, j: int) -> str:
 def legend(domain: Domain) -> str:
     """Legend of the signs, with the parameter domain."""
     signs = ", ".join(
-        f"{sign} {said}"
-        for sign, said in MEANING.items()
+        f"{sign} {meaning}"
+        for sign, meaning in MEANING.items()
         if sign != "s" or domain is not Domain.COMPLEX
     )
     more = (
@@ -260,8 +260,8 @@ def legend(domain: Domain) -> str:
         if domain is not Domain.COMPLEX
         else ""
     )
-    said = f"{signs}{more}".replace(" ", FIXED).replace(f",{FIXED}", ", ")
-    lines = fill(f"over {domain} parameters: {said}", WIDTH, break_long_words=False)
+    meaning = f"{signs}{more}".replace(" ", FIXED).replace(f",{FIXED}", ", ")
+    lines = fill(f"over {domain} parameters: {meaning}", WIDTH, break_long_words=False)
     return f"{lines.replace(FIXED, ' ')}\n{SETS}"
 
 

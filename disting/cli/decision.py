@@ -46,14 +46,14 @@ def run(options: argparse.Namespace) -> int:
             "what holds within ranges is told in words only: leave --json or --bound away"
         )
     sides = models_of((options.left, options.right), options)
-    asked = query(options.conditions, View.EXACT, options.domain)
+    wanted = query(options.conditions, View.EXACT, options.domain)
     if options.also:
-        return _under_experiments(sides, asked, options)
-    judgement = judge(sides, asked, options)
+        return _under_experiments(sides, wanted, options)
+    judgement = judge(sides, wanted, options)
     if options.json:
-        _written(file_of(judgement, asked, options), options)
+        _write_file(file_of(judgement, wanted, options), options)
     if options.json != "-":
-        print("\n".join(_told(judgement, dict(options.bound))))
+        print("\n".join(_describe(judgement, dict(options.bound))))
     return 0
 
 
@@ -89,12 +89,12 @@ def judge(
 def verdict_file(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models, as they are named, with all that its check needs."""
     sides = models_of(texts, options)
-    asked = query(options.conditions, View.EXACT, options.domain)
+    wanted = query(options.conditions, View.EXACT, options.domain)
     if not options.also:
-        return file_of(judge(sides, asked, options), asked, options)
+        return file_of(judge(sides, wanted, options), wanted, options)
     left, right = sides
     with engine_for(options) as (engine, _, _progress):
-        return everywhere_file(left, right, options.also, query=asked, engine=engine)
+        return everywhere_file(left, right, options.also, query=wanted, engine=engine)
 
 
 def file_of(judgement: Judgement, asked: Query, options: argparse.Namespace) -> dict[str, Any]:
@@ -107,11 +107,11 @@ def file_of(judgement: Judgement, asked: Query, options: argparse.Namespace) -> 
     )
 
 
-def _written(whole: dict[str, Any], options: argparse.Namespace) -> None:
+def _write_file(whole: dict[str, Any], options: argparse.Namespace) -> None:
     emit(options.json, json_text(whole, indent=1) + "\n")
 
 
-def _told(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:
+def _describe(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterator[str]:
     """The verdict in words, within ranges if there are any."""
     verdict, chains = judgement.verdict, _chains(judgement.models)
     special = _at_special_values(judgement.models, verdict)
@@ -120,8 +120,8 @@ def _told(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterat
         special is not None and special.is_same,
     )
     yield explain(verdict, drawn, judgement.known, measurand(judgement.models), everywhere)
-    said = special.sentence(verdict.left, verdict.right) if special else ""
-    yield from [f"special    {said}"] if said else []
+    sentence = special.sentence(verdict.left, verdict.right) if special else ""
+    yield from [f"special    {sentence}"] if sentence else []
     if chains and limits:
         yield from both_ways(verdict, "within the ranges", _within(chains, limits))
     elif chains and not verdict.proves_shares:
@@ -133,8 +133,8 @@ def _told(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> Iterat
 def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> SpecialValues | None:
     """The second answer, on all positive values, where the verdict leaves special ones out."""
     models = [side for side in sides if not isinstance(side, Chain)]
-    asked = verdict.has_exceptions or verdict.relation is Relation.DISTINGUISHABLE
-    if verdict.domain is Domain.POSITIVE and len(models) == len(sides) and asked:
+    matters = verdict.has_exceptions or verdict.relation is Relation.DISTINGUISHABLE
+    if verdict.domain is Domain.POSITIVE and len(models) == len(sides) and matters:
         return special_values(*models)
     return None
 
@@ -172,7 +172,7 @@ def _under_experiments(
     with engine_for(options) as (engine, _, _progress):
         if options.json:
             whole = everywhere_file(left, right, options.also, query=asked, engine=engine)
-            _written(whole, options)
+            _write_file(whole, options)
         if options.json == "-":
             return 0
         placements = compare_everywhere(left, right, options.also, query=asked, engine=engine)
@@ -198,10 +198,10 @@ def _every_way(
         drawings = list(map(in_letters, models))
         if left == right and chains:
             sides = experiments, [move(e, places) for e in experiments]
-            drawings = [_drawn(chains[0], side) for side in sides]
+            drawings = [_draw_experiments(chains[0], side) for side in sides]
         yield explain(verdict, drawings)
         yield from (f"note       {note}" for note in verdict.notes if verdict.evidence)
-        yield f"places     {_placed(places, left, right)}"
+        yield f"places     {_map_masses(places, left, right)}"
         return
     other = f"the other {right}" if left == right else right
     phrase = {
@@ -213,18 +213,18 @@ def _every_way(
     yield f"{placements.answer.upper()}: {left} and {other} are {phrase.format(other)}"
     yield ""
     for places, verdict in placements.verdicts:
-        yield f"  {_placed(places, left, other)}: {verdict.sentence}"
+        yield f"  {_map_masses(places, left, other)}: {verdict.sentence}"
         yield from (f"    {note}" for note in verdict.notes if verdict.evidence)
 
 
-def _drawn(chain: Chain, experiments: Sequence[Experiment]) -> str:
+def _draw_experiments(chain: Chain, experiments: Sequence[Experiment]) -> str:
     """A chain as it is, and where force and sensor are in each of the experiments."""
     ports = (entry.attached for entry in MeasuredChain(chain, tuple(experiments)).entries)
     drawings = (text_drawing(chain), *(text_drawing(chain, each) for each in ports))
     return " | ".join(dict.fromkeys(drawings))
 
 
-def _placed(places: Places, left: str, right: str) -> str:
+def _map_masses(places: Places, left: str, right: str) -> str:
     """Sentence that maps the masses of one chain to those of the other."""
     pairs = ", ".join(f"{a}/{b}" for a, b in places)
     return f"masses {pairs} of {left}/{right}"

@@ -146,7 +146,7 @@ def _lines(equivalents: Equivalents) -> Iterator[str]:
             " rounding to 15 digits included"
         )
     yield ""
-    yield from _unlisted(equivalents.listings)
+    yield from _list_empty(equivalents.listings)
     yield _closing(equivalents)
 
 
@@ -157,7 +157,7 @@ def _decimal(value: Fraction) -> str:
 
 
 def _listing(listing: Listing) -> Iterator[str]:
-    yield f"{listing.name}  {text_drawing(listing.chain)}   {_counted(listing)}{_placed(listing)}"
+    yield f"{listing.name}  {text_drawing(listing.chain)}   {_count(listing)}{_map_masses(listing)}"
     shown = [
         (i, member)
         for i, member in enumerate(listing.members, 1)
@@ -171,7 +171,7 @@ def _listing(listing: Listing) -> Iterator[str]:
         yield f"  and {hidden} complex ones, of no physical meaning (--json shows them)"
 
 
-def _placed(listing: Listing) -> str:
+def _map_masses(listing: Listing) -> str:
     """Sentence that maps the masses of the given model to those here, where experiments name
     some.
     """
@@ -179,7 +179,7 @@ def _placed(listing: Listing) -> str:
     return f", masses {places}" if places else ""
 
 
-def _counted(listing: Listing) -> str:
+def _count(listing: Listing) -> str:
     count = len(listing.members)
     return f"{plural(count, 'parameter set')}, {listing.sentence}"
 
@@ -210,17 +210,17 @@ def _signs(member: Equivalent) -> str:
     )
 
 
-def _unlisted(listings: Sequence[Listing]) -> Iterator[str]:
+def _list_empty(listings: Sequence[Listing]) -> Iterator[str]:
     """Structures without a member, grouped by their description."""
     groups: dict[str, list[str]] = {}
     for listing in listings:
         if not listing.members:
-            said = listing.sentence if len(listings) == 1 or not listing.complete else NONE
-            groups.setdefault(said, []).append(f"{listing.name}{_placed(listing)}")
-    for said, names in groups.items():
+            sentence = listing.sentence if len(listings) == 1 or not listing.complete else NONE
+            groups.setdefault(sentence, []).append(f"{listing.name}{_map_masses(listing)}")
+    for sentence, names in groups.items():
         every = "all" if len(names) == len(listings) else "all other"
         few = len(groups) > 1 or len(names) <= FEW
-        yield f"{', '.join(names) if few else f'{every} {len(names)} structures'}: {said}"
+        yield f"{', '.join(names) if few else f'{every} {len(names)} structures'}: {sentence}"
 
 
 def _closing(result: Equivalents) -> str:
@@ -231,7 +231,7 @@ def _closing(result: Equivalents) -> str:
     this = f"{'these' if result.experiments else 'this'} {what}"
     who = "None of these experiments" if result.experiments else NONE_HERE
     physical = [
-        f"{listing.name}{_placed(listing)}"
+        f"{listing.name}{_map_masses(listing)}"
         for listing in others
         if any(m.signs is Signs.POSITIVE for m in listing.members)
     ]
@@ -239,31 +239,31 @@ def _closing(result: Equivalents) -> str:
         m for listing in result.listings if listing.chain == result.chain for m in listing.members
     ]
     twins = sum(m.signs is Signs.POSITIVE and m.origin is not Origin.GIVEN for m in own)
-    said = []
+    sentences = []
     if physical:
-        said.append(f"{who} tells it from {_and(physical)} with the positive values above.")
+        sentences.append(f"{who} tells it from {_and(physical)} with the positive values above.")
     elif others and all(listing.complete for listing in others):
-        said.append(
+        sentences.append(
             f"No other of {among(chains)} gives {this} with positive values."
             if len({listing.chain for listing in others}) > 1
             else f"With positive values, {among(chains)} does not give {this}."
         )
     elif others:
-        said.append(
+        sentences.append(
             f"Among {among(chains)}, no other was found that does the same with positive values;"
             " not all are excluded."
         )
     if own and twins:
-        said.append(f"Other positive values of the same structure give the same {what} too.")
+        sentences.append(f"Other positive values of the same structure give the same {what} too.")
     elif own and all(
         listing.complete for listing in result.listings if listing.chain == result.chain
     ):
-        said.append("In its own structure no other positive values do.")
+        sentences.append("In its own structure no other positive values do.")
     if result.proportional and physical:
-        said.append(
+        sentences.append(
             "All springs have the same ratio k/d here; other ratios may rule out some of these."
         )
-    return " ".join(said)
+    return " ".join(sentences)
 
 
 def _and(names: Sequence[str]) -> str:
@@ -280,7 +280,7 @@ def _formulas(chain: Chain, others: Sequence[Chain], options: argparse.Namespace
             continue
         yield f"{mark}{name_of(chain)}  {text_drawing(chain)}"
         yield f"{mark}{name_of(other)}  {text_drawing(other)}   (primed)"
-        yield f"{mark}by {', then '.join(formula_map.steps) or 'identity'}; {_checked(formula_map)}"
+        yield f"{mark}by {', then '.join(formula_map.steps) or 'identity'}; {_check(formula_map)}"
         yield (
             formula_map.latex
             if options.latex
@@ -293,7 +293,7 @@ def _formulas(chain: Chain, others: Sequence[Chain], options: argparse.Namespace
         yield f"{mark}no rational formulas known here: {', '.join(none)}"
 
 
-def _checked(formula_map: Map) -> str:
+def _check(formula_map: Map) -> str:
     if not formula_map.safety:
         return "identity of the transfer functions proven"
     sure = formula_map.certainty.in_words(formula_map.safety)

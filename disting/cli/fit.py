@@ -59,13 +59,13 @@ def run(options: argparse.Namespace) -> int:
     measured = data(options)
     if any(response.is_impedance for response in measured.every):
         return _no_drive(options, measured)
-    left = _left(options)
+    left = _read_left(options)
     if left is None:
-        announce(Work.FITS, _counted(options), options.jobs or cores())
+        announce(Work.FITS, _count_candidates(options), options.jobs or cores())
     candidates = _candidates(options, measured, left.chains if left else ())
     options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
-    home = _as_measured(left.model, measured) if left else None
-    selection = _selected(options, measured, candidates, home, controller)
+    home = _like_measured(left.model, measured) if left else None
+    selection = _select(options, measured, candidates, home, controller)
     if options.json:
         plain = selection_to_dict(selection)
         text = json_text(plain, indent=1)
@@ -91,7 +91,7 @@ def _no_drive(options: argparse.Namespace, measured: Data) -> int:
     return 1
 
 
-def _selected(
+def _select(
     options: argparse.Namespace,
     measured: Data,
     candidates: Sequence[Chain],
@@ -150,7 +150,7 @@ def _onward(selection: Selection, out: Path) -> Iterator[str]:
         yield f"what to measure next: disting next {shlex.quote(str(out / 'fit.json'))}"
 
 
-def _counted(options: argparse.Namespace) -> dict[int, int]:
+def _count_candidates(options: argparse.Namespace) -> dict[int, int]:
     """Candidates by number of masses, before they are made: each structure with any dampers to the
     ground, lag and dead time.
     """
@@ -158,7 +158,7 @@ def _counted(options: argparse.Namespace) -> dict[int, int]:
     return {n: count * 2 ** (n + 2) for n, count in counts.items()}
 
 
-def _left(options: argparse.Namespace) -> "FitRecord | None":
+def _read_left(options: argparse.Namespace) -> "FitRecord | None":
     """The earlier fit that names the candidates; raises InputError where options name others."""
     if options.left is None:
         return None
@@ -173,7 +173,7 @@ def _left(options: argparse.Namespace) -> "FitRecord | None":
     return named_by(options.left)
 
 
-def _as_measured(chain: Chain, measured: Data) -> Chain:
+def _like_measured(chain: Chain, measured: Data) -> Chain:
     return replace(chain, sensor=measured.train.sensor)
 
 
@@ -200,7 +200,7 @@ def _candidates(
     """
     quantity = measured.train.sensor
     if left:
-        chains = tuple(_as_measured(chain, measured) for chain in left)
+        chains = tuple(_like_measured(chain, measured) for chain in left)
     elif options.family:
         chains = whole_family(options.masses, quantity)
     else:

@@ -71,11 +71,11 @@ def add_arguments(p: argparse.ArgumentParser) -> None:
     _responses(data)
     _reading(data)
     _quantities(data)
-    _counted(data)
+    _add_line_options(data)
     candidates = p.add_argument_group("candidates")
     _structures(candidates)
     add_damped(p)
-    _known(candidates)
+    _add_knowledge_options(candidates)
     _choices(p.add_argument_group("cost and selection"))
     _control(p.add_argument_group("what it is for"))
     _output(p.add_argument_group("output"))
@@ -103,7 +103,7 @@ def add_look_arguments(p: argparse.ArgumentParser) -> None:
     _reading(data)
     quantities = p.add_argument_group("quantities")
     _quantities(quantities)
-    _counted(quantities)
+    _add_line_options(quantities)
     group = p.add_argument_group("output")
     group.add_argument(
         "--out", type=written_folder, metavar="DIR", help="write a page with figures and JSON there"
@@ -202,7 +202,7 @@ def _quantities(group: argparse._ArgumentGroup) -> None:
     group.add_argument("--sign", type=signs, default="+", metavar="SIGN", help=text)
 
 
-def _counted(group: argparse._ArgumentGroup) -> None:
+def _add_line_options(group: argparse._ArgumentGroup) -> None:
     """Add the options that select the lines of the files to use."""
     group.add_argument(
         "--band", type=frequency_range, metavar="LOW..HIGH", help="use only these frequencies [Hz]"
@@ -278,7 +278,7 @@ def _ports(group: argparse._ArgumentGroup) -> None:
     )
 
 
-def _known(group: argparse._ArgumentGroup) -> None:
+def _add_knowledge_options(group: argparse._ArgumentGroup) -> None:
     """Add the options for known parameters and verdicts."""
     group.add_argument(
         "--fix",

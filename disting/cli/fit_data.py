@@ -212,7 +212,7 @@ def settings_of(
     settings = reader_settings(options)
     settings = _of_one(settings, which, count) if count > 1 else settings
     settings |= {"column": column} if column else {}
-    return _begun(file, settings, which) if together and count > 1 else settings
+    return _name_response(file, settings, which) if together and count > 1 else settings
 
 
 def reader_settings(options: argparse.Namespace) -> dict[str, Any]:
@@ -251,7 +251,7 @@ def _of_one(settings: dict[str, Any], which: int, count: int) -> dict[str, Any]:
     }
 
 
-def _begun(file: Path, settings: dict[str, Any], which: int) -> dict[str, Any]:
+def _name_response(file: Path, settings: dict[str, Any], which: int) -> dict[str, Any]:
     """Settings that name a response of a text file by its number, where nothing else names it."""
     if settings.keys() & {"column", "output", "input", "response", "record"}:
         return settings
@@ -300,7 +300,7 @@ def _experiment(
         change
         for name, kind in CHANGED.items()
         for value in entries.get(name, ())
-        for change in read_changes(kind, _measured(name, value), str)
+        for change in read_changes(kind, _check_size(name, value), str)
     ]
     force = entries.get("force", [""])[-1]
     setup = Setup(force=force, changes=changes)
@@ -318,11 +318,11 @@ def _experiment(
             column=",".join(entries.get("column", ())),
         )
         own = not alone and k == 0  # the sensor of the first response, wherever a candidate has it
-        seen = "" if own else place
-        yield FurtherResponse(response, replace(setup, sensor=seen, sign=signs.get(place, 1)))
+        sensor = "" if own else place
+        yield FurtherResponse(response, replace(setup, sensor=sensor, sign=signs.get(place, 1)))
 
 
-def _measured(name: str, value: str) -> str:
+def _check_size(name: str, value: str) -> str:
     """Check that the size of a change to the machine is a number."""
     if value.endswith(GENERIC):
         raise InputError(f"a known {name} that was measured with has a number, not {GENERIC}")

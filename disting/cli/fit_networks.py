@@ -47,14 +47,14 @@ def run(options: argparse.Namespace) -> int:
     elif options.ground_damper:
         networks = each_once(with_ground_damper(networks))
     keep_apart(network.name for network in networks)
-    measured = _measured(options, networks)
+    measured = _read_responses(options, networks)
     first = measured[0]
     with engine_for(options) as (engine, _, progress):
         selection = fit_networks(measured, networks, engine=engine, progress=progress)
     if options.json:
         emit(options.json, json_text(selection.to_dict(), indent=1) + "\n")
     if options.json != "-":
-        print("\n".join(_told(selection, first)))
+        print("\n".join(_describe(selection, first)))
     if options.out:
         from disting.report.fit.network_page import write_network_report
 
@@ -127,7 +127,9 @@ def _networks(texts: Sequence[str], notation: str) -> list[Network]:
     return networks
 
 
-def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[FrequencyResponse]:
+def _read_responses(
+    options: argparse.Namespace, networks: Sequence[Network]
+) -> list[FrequencyResponse]:
     """The responses of all sensors to all inputs, row by row; of circuits impedances."""
     outputs, inputs = networks[0].shape
     options.sensor = ",".join(str(k) for k in range(1, outputs * inputs + 1))
@@ -147,7 +149,7 @@ def _measured(options: argparse.Namespace, networks: Sequence[Network]) -> list[
     return turned
 
 
-def _told(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[str]:
+def _describe(selection: NetworkSelection, measured: FrequencyResponse) -> Iterator[str]:
     """The answer, then a line a network, then values."""
     is_circuit = selection.fits[0].network.sort is Sort.CIRCUIT
     yield from short_lines(measured, "impedance" if is_circuit else "")

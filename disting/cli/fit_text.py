@@ -63,15 +63,15 @@ def fit_text(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     yield from _set(selection, folded)
     yield from _criteria(selection, folded)
     yield ""
-    yield from _described(selection, train)
-    yield from _excluded(selection)
+    yield from _describe_selected(selection, train)
+    yield from _explain_exclusion(selection)
     yield from _relied_on(selection)
     if selection.selected and selection.explanation.is_near:
         yield ""
         yield from _alternatives(selection)
     yield from look_alike_sentences(selection)
     rest = not_in(answer, suspicions(selection))
-    yield from ["", *(f"suspicious: {said}" for said in rest)] if rest else []
+    yield from ["", *(f"suspicious: {doubt}" for doubt in rest)] if rest else []
     yield from (
         ["", "next:", *(f"  {command}" for command in commands(selection))]
         if commands(selection)
@@ -83,7 +83,7 @@ def _criteria(selection: Selection, folded: Folded) -> Iterator[str]:
     """Number of fitted candidates, and the figures of the best candidate of each line."""
     left = [line.best.candidate for line in folded.lines]
     yield (
-        f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_saved(selection)},"
+        f"{len(selection.candidates)} candidates fitted to {_lines(selection)}{_count(selection)},"
         f" validated on {selection.validation}"
     )
     if not left:
@@ -106,15 +106,15 @@ def _side_by_side(selection: Selection) -> Iterator[str]:
     yield ""
     yield "no values are given: those of a wrong quantity are wrong by powers of the frequency"
     rest = not_in(first_lines(selection), suspicions(selection))
-    yield from (f"suspicious: {said}" for said in rest)
+    yield from (f"suspicious: {doubt}" for doubt in rest)
     yield from ("", "next:", *(f"  {command}" for command in commands(selection)))
 
 
-def _described(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
+def _describe_selected(selection: Selection, train: FrequencyResponse) -> Iterator[str]:
     """The selected structure, or the best one, with its values."""
-    chain, said = selection.described.chain, selection.explanation
+    chain, explanation = selection.described.chain, selection.explanation
     short = "the best one, which does not explain the data"
-    what = "selected" if said.explains else f"{short}{' fully' * said.is_near}"
+    what = "selected" if explanation.explains else f"{short}{' fully' * explanation.is_near}"
     yield (
         f"{what if selection.selected else 'the best one'}: {name_of(chain)}"
         f"   {text_drawing(chain)}"
@@ -145,8 +145,8 @@ def _each(selection: Selection) -> Iterator[str]:
     information.
     """
     judging, c = selection.judging, selection.described
-    said = explanations(judging, c.residual, c.missed, selection.explanation.scatter)
-    by_setup = dict(zip((setup.text for setup in judging.setups), said, strict=True))
+    each = explanations(judging, c.residual, c.missed, selection.explanation.scatter)
+    by_setup = dict(zip((setup.text for setup in judging.setups), each, strict=True))
     for name, fit in fits_of(selection, c):
         explanation = by_setup.get(name)
         judged = (
@@ -160,7 +160,7 @@ def _each(selection: Selection) -> Iterator[str]:
     yield from which_mass(selection)
 
 
-def _excluded(selection: Selection) -> Iterator[str]:
+def _explain_exclusion(selection: Selection) -> Iterator[str]:
     """Where none may be selected, why, and what helps."""
     if selection.selected:
         return
@@ -213,15 +213,15 @@ def _beside(selection: Selection, line: Line) -> Iterator[str]:
     rest = [m for m in line.members if m is not line.best]
     same = fold_names(twin.name for m in rest for twin in m.twins)
     if same:
-        yield f"{', '.join(m.name for m in rest)} may as well be {_named(same)}"
+        yield f"{', '.join(m.name for m in rest)} may as well be {_join_names(same)}"
     more = {m.name for m in selection.containing}  # they are left whatever behaves the same
     unknown = fold_names(name for m in line.members for name in m.open if name not in more)
     if unknown:
-        yield f"not decided: {_named(unknown)}"
+        yield f"not decided: {_join_names(unknown)}"
     own = [m.candidate.chain for m in line.members]
     larger = fold_names(m.name for m in selection.containing if m.contains in own)
     if larger:
-        yield f"or a larger one that contains it: {_named(larger)}"
+        yield f"or a larger one that contains it: {_join_names(larger)}"
 
 
 def _relied_on(selection: Selection) -> Iterator[str]:
@@ -243,7 +243,7 @@ def _differing(member: Member) -> str:
     return f"  differs most at {hertz:.3g} Hz, by {100 * size:.2g} %"
 
 
-def _saved(selection: Selection) -> str:
+def _count(selection: Selection) -> str:
     return (
         f" ({selection.saved} more have the same positive models as one of them)"
         if selection.saved
@@ -251,13 +251,13 @@ def _saved(selection: Selection) -> str:
     )
 
 
-def _named(names: list[str]) -> str:
+def _join_names(names: list[str]) -> str:
     more = len(names) - SHOWN
     return ", ".join(names[:SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
 def _table(candidates: Any) -> Iterator[str]:
-    jointly, weakest, alike = (said for said, _ in HEADS)
+    jointly, weakest, alike = (head for head, _ in HEADS)
     yield f"{'misfit J of lines':>19} {'':>10}   {'badly determined':>17}"
     yield (
         f"{'unseen':>9} {'fitted':>9} {'parameters':>10} {jointly:>8} {weakest:>8} {alike:>8}"
@@ -291,13 +291,13 @@ def _parameters(selection: Selection) -> Iterator[str]:
     for name, value in c.estimate.parameters.items():
         error = c.practical.relative_errors.get(name)
         if error is None:
-            said = "given"
+            origin = "given"
         elif name in wide and not error <= FROM_ZERO:
-            said = f"{limits_in_words(*wide[name])}{mark}"
+            origin = f"{limits_in_words(*wide[name])}{mark}"
         else:
-            said = "not determined" if not error <= UNDETERMINED else f"± {percent(error)}{mark}"
-            said += "".join(_or(other, name, value) for other in others)
-        yield f"{name:4} = {value:<11.6g} {said}{_flag(apart[name]) if name in apart else ''}"
+            origin = "not determined" if not error <= UNDETERMINED else f"± {percent(error)}{mark}"
+            origin += "".join(_or(other, name, value) for other in others)
+        yield f"{name:4} = {value:<11.6g} {origin}{_flag(apart[name]) if name in apart else ''}"
 
 
 def _flag(disagreement: Disagreement) -> str:
@@ -346,6 +346,6 @@ def _alternatives(selection: Selection) -> Iterator[str]:
             "no other candidate with as many masses gives the same response, special values aside:"
             " better data can tell them apart"
         )
-    for relation, said in OTHERWISE.items():
+    for relation, heading in OTHERWISE.items():
         if relation in by_relation:
-            yield f"{said}: " + "; ".join(map(name_of, by_relation[relation]))
+            yield f"{heading}: " + "; ".join(map(name_of, by_relation[relation]))

@@ -73,7 +73,7 @@ def _views(options: argparse.Namespace, unread: list[str]) -> Iterator[View]:
     if len(options.train) > 1 and len(places) == 1:
         for k, file in enumerate(options.train, 1):
             try:
-                yield View(f"file {k}", _seen(file, options))
+                yield View(f"file {k}", _look_at(file, options))
             except InputError as reason:
                 unread.append(str(reason))
         if len(unread) == len(options.train):
@@ -95,8 +95,8 @@ def _at_sensors(options: argparse.Namespace, places: Sequence[str]) -> Iterator[
     for k, place in enumerate(places):
         name = f"sensor {place}" if count > 1 or options.experiment else ""
         file = files[0 if together else k]
-        seen = _seen(file, options, k, count, together=together, repeat=options.repeat)
-        yield View(name, seen)
+        looked = _look_at(file, options, k, count, together=together, repeat=options.repeat)
+        yield View(name, looked)
 
 
 def _of_experiment(text: str, options: argparse.Namespace, places: Sequence[str]) -> Iterator[View]:
@@ -107,11 +107,11 @@ def _of_experiment(text: str, options: argparse.Namespace, places: Sequence[str]
     for k, place in enumerate(own or places):
         which = places.index(place) if own and place in places else k
         several = [] if own or len(places) == 1 else [f"sensor={place}"]
-        seen = _seen(file, options, which, len(places), together=not own, column=column)
-        yield View(f"experiment {', '.join([*change, *several])}", seen)
+        looked = _look_at(file, options, which, len(places), together=not own, column=column)
+        yield View(f"experiment {', '.join([*change, *several])}", looked)
 
 
-def _seen(
+def _look_at(
     file: Path,
     options: argparse.Namespace,
     which: int = 0,
@@ -130,15 +130,15 @@ def _seen(
     except InputError as reason:
         settings = reader_settings(options)
         reasons.append(str(reason))
-    seen = look(
+    looked = look(
         file,
         repeat=repeat,
         outliers=options.outliers,
         changes=list(_changes(options, which)),
         **settings,
     )
-    seen = replace(seen, refusals=(*reasons, *seen.refusals))
-    return name_units(seen, dict(options.unit))
+    looked = replace(looked, refusals=(*reasons, *looked.refusals))
+    return name_units(looked, dict(options.unit))
 
 
 def _changes(options: argparse.Namespace, which: int = 0) -> Iterator[partial[FrequencyResponse]]:

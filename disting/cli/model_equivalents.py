@@ -41,12 +41,12 @@ def run(options: argparse.Namespace) -> int:
             "of networks and models of a file values and formulas are listed, not experiments:"
             " leave --also away"
         )
-    (asked,) = _named(options.model, options)
+    (given,) = _models_of(options.model, options)
     listed = map(of_network, family_of(options.family).networks) if options.family else ()
-    named = _named(options.to, options) if options.to else []
-    others = [model for model in (*listed, *named) if model.name != asked.name]
-    keep_apart(model.name for model in (asked, *others))
-    if [model.name for model in named] == [asked.name]:  # which other values does it have
+    named = _models_of(options.to, options) if options.to else []
+    others = [model for model in (*listed, *named) if model.name != given.name]
+    keep_apart(model.name for model in (given, *others))
+    if [model.name for model in named] == [given.name]:  # which other values does it have
         others = named
     formulas = options.formulas or options.latex or options.sympy
     if formulas and options.values:
@@ -54,25 +54,25 @@ def run(options: argparse.Namespace) -> int:
     values = None if formulas else stated_values(options.model, options) or None
     with engine_for(options) as (engine, _, progress):
         if options.family:
-            recall_of(asked, options.family, engine)
-        equivalents = model_equivalents(asked, others, values, engine=engine)
-        written = list(_formulas(asked, equivalents, options, progress)) if formulas else []
+            recall_of(given, options.family, engine)
+        equivalents = model_equivalents(given, others, values, engine=engine)
+        written = list(_formulas(given, equivalents, options, progress)) if formulas else []
     if options.json:
         whole = {
             "format": Format.NETWORK_EQUIVALENTS.value,
-            "given": asked.name,
+            "given": given.name,
             "equivalents": [x.to_dict() for x in equivalents],
         }
         emit(options.json, json_text(whole, indent=1) + "\n")
         return 0
-    other = "network" if asked.network else "model"
-    other = other if others == [asked] else f"other {other}"
-    head = _counted(asked.name, plural(len(others), other), equivalents)
+    other = "network" if given.network else "model"
+    other = other if others == [given] else f"other {other}"
+    head = _count_equivalents(given.name, plural(len(others), other), equivalents)
     print("\n".join([_mark(options) + head, *(written if formulas else _lines(equivalents))]))
     return 0
 
 
-def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
+def _models_of(text: str, options: argparse.Namespace) -> list[AnyModel]:
     """Models that a text names: a network, a chain, file.json:name, or all models of file.json."""
     if text.endswith(".json"):
         return list(read_models(Path(text)))
@@ -85,7 +85,7 @@ def _named(text: str, options: argparse.Namespace) -> list[AnyModel]:
     return [as_model(chain)]
 
 
-def _counted(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:
+def _count_equivalents(text: str, others: str, equivalents: list[ModelEquivalent]) -> str:
     """Sentence with the number of the others that are equivalent."""
     same = [x for x in equivalents if x.verdict.relation is Relation.INDISTINGUISHABLE]
     return (

@@ -79,13 +79,13 @@ def structures(
     """Chains by their names, networks in a notation or file.json:name; raises InputError for both
     at once, and for options of chains with networks.
     """
-    said = [FILE in text or is_network(text, options.notation) for text in texts]
-    if not any(said):
+    nets = [FILE in text or is_network(text, options.notation) for text in texts]
+    if not any(nets):
         return [*read_together(texts, damped=options.damped, sensor=quantity)]
     _refuse_damping(options)
-    if not all(said):
+    if not all(nets):
         raise InputError(
-            f"{texts[said.index(False)]} is a numbered chain, {texts[said.index(True)]} a network:"
+            f"{texts[nets.index(False)]} is a numbered chain, {texts[nets.index(True)]} a network:"
             " write the chain as a network too, such as 1=2=3; F1; S3"
         )
     return [

@@ -99,10 +99,12 @@ def run(options: argparse.Namespace) -> int:
         work = Work.UNDER_EXPERIMENTS if also else Work.IDENTIFIABILITY
         announce(work, {family.n_masses: len(family) * max(1, len(also))}, options.jobs)
     with engine_for(options) as (engine, pool, progress):
-        asked = bool(also) or options.ranks or options.identifiability or family.n_masses <= AT_ONCE
+        wanted = (
+            bool(also) or options.ranks or options.identifiability or family.n_masses <= AT_ONCE
+        )
         # no dependences are shown, which are dear
         plain = Engine(replace(engine.settings, subset_limit=0), engine.store)
-        profiles = plain.profiles_of(family, executor=pool, progress=progress) if asked else ()
+        profiles = plain.profiles_of(family, executor=pool, progress=progress) if wanted else ()
         identifiabilities: Sequence[Identified] = ()
         if also:
             identifiabilities = _under_experiments(family, also, domain, engine, pool, progress)
@@ -129,14 +131,14 @@ def run(options: argparse.Namespace) -> int:
 def _explain(has_profiles: bool, has_sets: bool, several: bool, domain: Domain) -> None:
     """Print the meaning of the columns."""
     print("force, sensor: what it acts or looks on, and against (0 the ground)")
-    said = "" if has_profiles else f"; {NOT_ASKED} not asked (--ranks asks)"
+    note = "" if has_profiles else f"; {NOT_ASKED} not asked (--ranks asks)"
     print("n/m degrees of (25), free non-constant coefficients, par parameters,")
-    print(f"rank determinable parameters{said}")
-    said = "1 identifiable, ∞ not, ? not known" + (
+    print(f"rank determinable parameters{note}")
+    note = "1 identifiable, ∞ not, ? not known" + (
         "" if has_sets else f", {NOT_ASKED} not asked (--identifiability asks)"
     )
     where = " in all experiments" if several else ""
-    print(f"sets {domain} parameter sets with the same behaviour{where}:\n     {said}")
+    print(f"sets {domain} parameter sets with the same behaviour{where}:\n     {note}")
 
 
 def _of_list(source: Listed, options: argparse.Namespace) -> int:
@@ -187,7 +189,7 @@ def _table(
     for place, chain in enumerate(family):
         _, gap, act_minus, act_plus, meas_minus, meas_plus = chain.indices
         ports = (f"{act_plus}-{act_minus}", f"{meas_plus}-{meas_minus}")
-        cells = _found(profiles[place]) if profiles else (NOT_ASKED,) * 3
+        cells = _summarise(profiles[place]) if profiles else (NOT_ASKED,) * 3
         rank = (
             str(identifiabilities[place].rank if identifiabilities else profiles[place].rank)
             if profiles
@@ -202,7 +204,7 @@ def _line(cells: Sequence[str]) -> str:
     return " ".join(f"{cell:{w}}" for cell, w in zip(cells, widths, strict=True)).rstrip()
 
 
-def _found(profile: Profile) -> tuple[str, str, str]:
+def _summarise(profile: Profile) -> tuple[str, str, str]:
     """Degrees, non-constant coefficients, parameters."""
     n, m = profile.degrees
     return f"{n}/{m}", str(len(profile.form)), str(profile.n_parameters)
@@ -226,9 +228,9 @@ def _under_experiments(
 ) -> list[ParameterIdentifiability]:
     """Parameters that the chains as given and these experiments determine together."""
     experiments = tuple(dict.fromkeys([Experiment(), *also]))
-    asked = [MeasuredChain(chain, experiments) for chain in family]
-    engine.answer_all(IDENTIFIABLE, [(m,) for m in asked], executor=pool, progress=progress)
-    return [identify_measured(measured, domain, engine) for measured in asked]
+    machines = [MeasuredChain(chain, experiments) for chain in family]
+    engine.answer_all(IDENTIFIABLE, [(m,) for m in machines], executor=pool, progress=progress)
+    return [identify_measured(measured, domain, engine) for measured in machines]
 
 
 def _sets(found: Identified) -> str:

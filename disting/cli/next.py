@@ -94,10 +94,10 @@ def run(options: argparse.Namespace) -> int:
         if isinstance(group, str):
             print(group)
             return 0
-        advice = _shipped(group, is_damped(options), costs) or menu_for(
+        advice = _look_up(group, is_damped(options), costs) or menu_for(
             group, engine, costs=costs, executor=pool, progress=progress
         )
-    return _written(
+    return _write_result(
         options,
         _of_all([advice]),
         json_text(to_dict(advice), indent=1),
@@ -123,7 +123,7 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
             return 0
         group = list(zip(names, networks, strict=True))
         advice = menu_for(group, engine, costs=costs, executor=pool, progress=progress)
-    return _written(
+    return _write_result(
         options,
         _of_all([advice]),
         json_text(to_dict(advice), indent=1),
@@ -131,7 +131,7 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
     )
 
 
-def _written(options: argparse.Namespace, lines: Table, plain: str, text: str) -> int:
+def _write_result(options: argparse.Namespace, lines: Table, plain: str, text: str) -> int:
     """The table, the JSON and the text, each where it is requested."""
     if options.csv:
         emit(options.csv, _table(lines))
@@ -159,26 +159,26 @@ def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
         if networks:
             text = "\n\n".join([*networks.sentences, *map(menu_text, networks.groups)])
             written = json_text(networks.to_dict(), indent=1)
-            return _written(options, _of_all(networks.groups), written, text)
+            return _write_result(options, _of_all(networks.groups), written, text)
         lead = chain_advice(options, costs, engine, pool, progress)
-    menus = [line for group in lead.groups for line in ("", *_told(group, brief=True))]
+    menus = [line for group in lead.groups for line in ("", *_describe_menu(group, brief=True))]
     domain = ["", DOMAIN.format(place="mass"), BRIEF] if lead.groups else []
     written = json_text(plain(lead), indent=1)
-    return _written(options, table(lead), written, in_text(lead, [*domain, *menus]))
+    return _write_result(options, table(lead), written, in_text(lead, [*domain, *menus]))
 
 
 def menu_text(advice: AnyMenu) -> str:
     """The menu for each structure, cheapest first, with what its words mean."""
     legend = [LEGEND] if isinstance(advice.structures[0], Chain) else []
-    return "\n".join(_told(advice, ["", *legend, DOMAIN.format(place=advice.place)]))
+    return "\n".join(_describe_menu(advice, ["", *legend, DOMAIN.format(place=advice.place)]))
 
 
-def _told(advice: AnyMenu, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
+def _describe_menu(advice: AnyMenu, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
     """The menu of each structure; `brief`: only where something on it is surely enough."""
     width = max(map(len, advice.names))
     structures: tuple[Chain | Network, ...] = advice.structures
     drawings = [
-        f"  {name:{width}}  {_drawn(structure)}".rstrip()
+        f"  {name:{width}}  {_draw_structure(structure)}".rstrip()
         for name, structure in zip(advice.names, structures, strict=True)
     ]
     head = f"{len(advice.names)} structures that the present measurement cannot tell apart:"
@@ -196,7 +196,7 @@ def _told(advice: AnyMenu, words: Sequence[str] = (), *, brief: bool = False) ->
     return lines
 
 
-def _drawn(structure: Chain | Network) -> str:
+def _draw_structure(structure: Chain | Network) -> str:
     """A chain as a drawing; of a circuit what meets in each node."""
     if isinstance(structure, Chain):
         return text_drawing(structure)
@@ -216,7 +216,7 @@ def _table(lines: Iterable[Sequence[str]]) -> str:
     return text.getvalue()
 
 
-def _shipped(group: list[Named], damped: bool, costs: Costs) -> Menu[Chain] | None:
+def _look_up(group: list[Named], damped: bool, costs: Costs) -> Menu[Chain] | None:
     """The look-up of a shipped catalogue, where all structures are of it."""
     n = group[0][1].n_masses
     if any(chain.lag or chain.dead_time for _, chain in group):

@@ -131,8 +131,8 @@ def chain_advice(
         chosen = [(named.left[k].name, named.left[k].chain) for k in members]
         groups.append(menu_for(chosen, engine, costs=costs, executor=executor, progress=progress))
     bench = bench_of(named)
-    seen = predictions(named.left, bench, engine.settings, costs) if bench else None
-    return ChainAdvice(source, named, standing, tuple(groups), seen, costs)
+    predicted = predictions(named.left, bench, engine.settings, costs) if bench else None
+    return ChainAdvice(source, named, standing, tuple(groups), predicted, costs)
 
 
 def _warn(source: str, named: FitRecord) -> None:

@@ -33,7 +33,7 @@ PLAIN = {
 
 def say_what_can_be_said() -> None:
     """Make standard output and error write the characters that they lack as `in_ascii` does."""
-    codecs.register_error(HANDLER, _replaced)
+    codecs.register_error(HANDLER, _replace_unencodable)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # else somebody's own stream, or none
             stream.reconfigure(errors=HANDLER)
@@ -75,7 +75,7 @@ def _without_marks(character: str) -> str:
     return bare or character.encode("ascii", "backslashreplace").decode()
 
 
-def _replaced(error: UnicodeError) -> tuple[str, int]:
+def _replace_unencodable(error: UnicodeError) -> tuple[str, int]:
     if not isinstance(error, UnicodeEncodeError):
         raise error
     return in_ascii(error.object[error.start : error.end]), error.end
@@ -146,14 +146,14 @@ class Output:
         try:
             return self._stream.write(text)
         except OSError as reason:
-            raise _named(reason) from None
+            raise _name_reason(reason) from None
 
     def flush(self) -> None:
         """As the stream; raises OSError that names it."""
         try:
             self._stream.flush()
         except OSError as reason:
-            raise _named(reason) from None
+            raise _name_reason(reason) from None
 
     def write_bytes(self, content: bytes) -> None:
         """Bytes as they are, behind the text that is written; raises OSError that names it."""
@@ -163,7 +163,7 @@ class Output:
             while rest:  # an unbuffered stream may take a part
                 rest = rest[self._stream.buffer.write(rest) :]
         except OSError as reason:
-            raise _named(reason) from None
+            raise _name_reason(reason) from None
 
     def __getattr__(self, name: str) -> object:
         return getattr(self._stream, name)
@@ -198,5 +198,5 @@ def _to_standard_output(lines: Iterable[str]) -> None:
         stream.writelines(lines)
 
 
-def _named(reason: OSError) -> OSError:
+def _name_reason(reason: OSError) -> OSError:
     return OSError(reason.errno, reason.strerror, STANDARD)

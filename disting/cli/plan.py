@@ -170,7 +170,7 @@ def _effort(
     if (options.noise or "").endswith("%"):
         raise InputError("noise is written as a share: --noise 0.02 for 2 %")
     if options.noise is not None and number is None:
-        return _measured(options, model, values)
+        return _read_effort(options, model, values)
     if number is None and named is None:
         raise InputError("say how much a line scatters: --noise 0.02, or --noise FRF.csv")
     low, high = options.band or ((named.low, named.high) if named else (0.0, 0.0))
@@ -190,7 +190,7 @@ def _number(text: str | None) -> float | None:
         return None
 
 
-def _measured(options: argparse.Namespace, model: AnyStructure, values: Parameters) -> Effort:
+def _read_effort(options: argparse.Namespace, model: AnyStructure, values: Parameters) -> Effort:
     """Lines and scatter of a measured response."""
     if options.lines is not None:
         raise InputError("the lines are those of the measured response: leave --lines away")
@@ -206,10 +206,12 @@ def _measured(options: argparse.Namespace, model: AnyStructure, values: Paramete
             f"{options.noise} is one response, {len(responses)} are planned: say how much a line"
             " scatters, such as --noise 0.02 --band 5..300"
         )
-    seen = scatter(response, list(responses))
+    own_scatter = scatter(response, list(responses))
     own = 1 + round((response.freedom or 0.0) / 2)
-    source = f"of {options.noise}, known from {seen.source}"
-    return Effort(response.omega, seen.rho, source, options.repeats or min(own, MOST_REPEATS))
+    source = f"of {options.noise}, known from {own_scatter.source}"
+    return Effort(
+        response.omega, own_scatter.rho, source, options.repeats or min(own, MOST_REPEATS)
+    )
 
 
 def _warn(effort: Effort) -> None:

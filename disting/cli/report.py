@@ -103,12 +103,12 @@ def _catalogues(options: argparse.Namespace) -> None:
             for n in options.masses
             for damped in choices
         ]
-    asked = set(options.masses)
+    sizes = set(options.masses)
     with_dampers = [
         damper_catalog(n, damped=d) for n in options.masses if n in DAMPER_SIZES for d in choices
     ]
     # of all shipped sizes, whichever are asked for
-    together = len(asked.intersection(SHIPPED_SIZES)) > 1
+    together = len(sizes.intersection(SHIPPED_SIZES)) > 1
     across = [sizes_catalog(damped=d, known=catalogs) for d in choices if together]
     paths = write_report(catalogs, options.out, with_dampers, parser(), across)
     for c in catalogs:

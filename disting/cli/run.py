@@ -118,7 +118,7 @@ class _Parser(argparse.ArgumentParser):
         self.declare()
         namespace_read, rest = super().parse_known_args(args, namespace)
         if rest:
-            options = [name for action in self._actions for name in _offered(action)]
+            options = [name for action in self._actions for name in _list_choices(action)]
             meant = [near(word.partition("=")[0], options) for word in rest if word[0:1] == "-"]
             own = [word for word in args or () if word.lower().endswith(".json")]
             if own and not meant:  # names of models after the file that holds them
@@ -131,16 +131,16 @@ class _Parser(argparse.ArgumentParser):
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:
             names = list(map(str, action.choices))
-            said = f"{short(value)} is none of {', '.join(names)}{near(str(value), names)}"
-            raise argparse.ArgumentError(action, said)
+            message = f"{short(value)} is none of {', '.join(names)}{near(str(value), names)}"
+            raise argparse.ArgumentError(action, message)
 
     def _print_message(self, message: str, file: Any = None) -> None:
         (file or sys.stderr).write(message)  # argparse would hide that it cannot be written
 
     def error(self, message: str) -> None:  # type: ignore[override]
         """Say what is wrong and where help is; exit status 2."""
-        said = _short(self._plain(message)).rstrip(".")
-        complain(f"{said} (see '{self.prog} --help')")
+        sentence = _short(self._plain(message)).rstrip(".")
+        complain(f"{sentence} (see '{self.prog} --help')")
         self.exit(2)
 
     def _plain(self, message: str) -> str:
@@ -163,8 +163,8 @@ class _Parser(argparse.ArgumentParser):
             names = (action.metavar, action.dest, "/".join(action.option_strings))
             if name in names and action.help:
                 value = f": {action.metavar}" if action.option_strings and action.metavar else ""
-                said = re.split(r"; | \(", action.help)[0]
-                return f"{value}: {said}"
+                meaning = re.split(r"; | \(", action.help)[0]
+                return f"{value}: {meaning}"
         return ""
 
 
@@ -179,7 +179,7 @@ class _HelpAll(argparse.Action):
         parser.exit()
 
 
-def _offered(action: argparse.Action) -> list[str]:
+def _list_choices(action: argparse.Action) -> list[str]:
     return [] if action.help == argparse.SUPPRESS else list(action.option_strings)
 
 
@@ -247,7 +247,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _fill_closed_streams()
     say_what_can_be_said()
     with open(os.devnull, "w", encoding="utf-8") as nowhere, warnings.catch_warnings():
-        warnings.showwarning = _warned
+        warnings.showwarning = _print_warning
         # the shell may have closed them
         out = Output(sys.stdout or nowhere)
         with redirect_stdout(cast(TextIO, out)), redirect_stderr(sys.stderr or nowhere):
@@ -270,9 +270,9 @@ def _run(arguments: Sequence[str] | None) -> int:
     try:
         if COMPLETION in os.environ:
             return _complete()
-        options = _parsed(arguments)
+        options = _parse_arguments(arguments)
         work = options.command.work()
-        with _heard():
+        with _raise_interrupts():
             status: int = work(options)
             sys.stdout.flush()
         return status
@@ -292,13 +292,13 @@ def _run(arguments: Sequence[str] | None) -> int:
         )
         return 2
     except KeyboardInterrupt:
-        complain(f"interrupted{_kept(options)}")
+        complain(f"interrupted{_cache_note(options)}")
         return 130
     finally:
         _drop_what_cannot_be_written()
 
 
-def _kept(options: Namespace) -> str:
+def _cache_note(options: Namespace) -> str:
     """Note on the cache, empty if it was disabled on request."""
     from disting.store.store import MEMORY, NOWHERE, locate
 
@@ -306,7 +306,7 @@ def _kept(options: Namespace) -> str:
     return "" if without else "; what was finished is kept in the cache"
 
 
-def _parsed(arguments: Sequence[str] | None) -> Namespace:
+def _parse_arguments(arguments: Sequence[str] | None) -> Namespace:
     try:
         words = sys.argv[1:] if arguments is None else list(arguments)
         if words[:1] in ([], ["help"]):  # as people try first
@@ -323,7 +323,7 @@ def _complete() -> int:
 
 
 @contextmanager
-def _heard() -> Iterator[None]:
+def _raise_interrupts() -> Iterator[None]:
     """Ctrl-C as an exception while a command works, where it ends the process at once before and
     after; where it is heard otherwise, or not, it stays so.
     """
@@ -363,5 +363,5 @@ def _drop_what_cannot_be_written() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _warned(message: Warning | str, *_: object, **__: object) -> None:
+def _print_warning(message: Warning | str, *_: object, **__: object) -> None:
     complain(f"warning: {message}")

@@ -51,11 +51,11 @@ def bode_lines(
     x = np.log(hertz)
     yield f"amplitude{f' [{unit}]' if unit else ''}"
     ends = [f"{size.max():.3g}", f"{np.sqrt(size.max() * size.min()):.3g}", f"{size.min():.3g}"]
-    yield from _framed(curve(x, np.log(size), room, 9, signs), ends, signs)
+    yield from _frame_rows(curve(x, np.log(size), room, 9, signs), ends, signs)
     yield "phase [deg]"
     middle = (phase.max() + phase.min()) / 2
     ends = [f"{phase.max():.0f}", f"{middle:.0f}", f"{phase.min():.0f}"]
-    yield from _framed(curve(x, phase, room, 5, signs), ends, signs)
+    yield from _frame_rows(curve(x, phase, room, 5, signs), ends, signs)
     marks = [f"{hertz[0]:.4g} Hz", f"{np.sqrt(hertz[0] * hertz[-1]):.4g}", f"{hertz[-1]:.4g} Hz"]
     yield from _below(marks, room)
 
@@ -73,7 +73,7 @@ def nyquist_lines(
     yield f"-Im over Re{f' [{unit}]' if unit else ''}"
     rows = curve(real, down, room, height, signs, (*across, *up))
     ends = [f"{up[1]:.3g}", f"{up.mean():.3g}", f"{up[0]:.3g}"]
-    yield from _framed(rows, ends, signs)
+    yield from _frame_rows(rows, ends, signs)
     yield from _below([f"{across[0]:.4g}", f"{across.mean():.4g}", f"{across[1]:.4g}"], room)
 
 
@@ -122,7 +122,7 @@ def _sign(cell: NDArray[np.bool_], signs: Signs) -> str:
     return ":" if upper and lower else "'" if upper else "."
 
 
-def _framed(rows: list[str], ends: list[str], signs: Signs) -> Iterator[str]:
+def _frame_rows(rows: list[str], ends: list[str], signs: Signs) -> Iterator[str]:
     """Rows with the labels of the upper end, the middle and the lower end, and an axis below."""
     labels = {0: ends[0], len(rows) // 2: ends[1], len(rows) - 1: ends[2]}
     for i, row in enumerate(rows):

@@ -78,7 +78,9 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(
             "one of --csv and --json can be standard output, not both: name a file for the other"
         )
-    asked = query(options.conditions, VIEWS[options.representation], options.domain, options.markov)
+    wanted = query(
+        options.conditions, VIEWS[options.representation], options.domain, options.markov
+    )
     file = options.masses if isinstance(options.masses, Listed) else None
     if file:
         refuse_chain_options(options)
@@ -92,8 +94,8 @@ def run(options: argparse.Namespace) -> int:
             engine.general_subjects(models.models) if models else _of_sizes(options, engine)
         )
         if file and file not in SHIPPED:
-            announce_pairs(str(file), subjects, asked, engine, options.jobs)
-        decided = engine.decisions(subjects, asked, executor=pool, progress=progress)
+            announce_pairs(str(file), subjects, wanted, engine, options.jobs)
+        decided = engine.decisions(subjects, wanted, executor=pool, progress=progress)
         if options.prove:
             decided = prove_all(decided, progress=progress)
     if options.csv:

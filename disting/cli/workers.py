@@ -228,12 +228,12 @@ def _bars(pause: float) -> Iterator[Progress]:
     def draw() -> None:
         """Until the work has ended; standard output is left alone."""
         if not ended.wait(pause):
-            _drawn(ended, latest)
+            _draw_bars(ended, latest)
 
     yield from _beside(draw, ended, advance)
 
 
-def _drawn(ended: Event, latest: dict[str, tuple[int, int]]) -> None:
+def _draw_bars(ended: Event, latest: dict[str, tuple[int, int]]) -> None:
     """A bar for each thing that is done, a moving one where nothing is counted yet."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress as Bar, TextColumn, TimeElapsedColumn

@@ -83,7 +83,9 @@ def condition_3(left: Profile, right: Profile) -> Finding:
     """
     if left.form == right.form:
         return Finding(FORM, Outcome.HOLDS)
-    only = Forms(_ordered(left, left.form - right.form), _ordered(right, right.form - left.form))
+    only = Forms(
+        _order_labels(left, left.form - right.form), _order_labels(right, right.form - left.form)
+    )
     return Finding(FORM, Outcome.FAILS, *form_grade(left, right), only)
 
 
@@ -113,7 +115,7 @@ def condition_5(left: Profile, right: Profile) -> Finding:
     if isinstance(left.matroid, NoMatroid) or isinstance(right.matroid, NoMatroid):
         reasons = [p.matroid.reason for p in (left, right) if isinstance(p.matroid, NoMatroid)]
         return Finding(DEPENDENCES, Outcome.ABANDONED, note=reasons[0])
-    mine, theirs = _restricted(left, left.matroid), _restricted(right, right.matroid)
+    mine, theirs = _restrict_matroid(left, left.matroid), _restrict_matroid(right, right.matroid)
     outcome, evidence = (
         (Outcome.HOLDS, None)
         if mine == theirs
@@ -153,7 +155,7 @@ def dependence_grade(left: Profile, right: Profile) -> Grade:
     return grade_of(False, _safety(left, right))
 
 
-def _restricted(profile: Profile, shape: Matroid) -> Matroid:
+def _restrict_matroid(profile: Profile, shape: Matroid) -> Matroid:
     """The matroid on the free rows only, numbered again, so that summaries with other constants
     compare.
     """
@@ -165,7 +167,7 @@ def _restricted(profile: Profile, shape: Matroid) -> Matroid:
 
 
 def _unequal_rows(left: Profile, mine: Matroid, theirs: Matroid) -> Evidence:
-    labels = _ordered(left, left.form)
+    labels = _order_labels(left, left.form)
     rows = separating_rows(mine, theirs)
     return Ranks(
         tuple(labels[i] for i in rows), rank_in(mine, rows), rank_in(theirs, rows), all_rows=False
@@ -180,7 +182,7 @@ def _by_degree(rule: Rule, left: Profile, right: Profile, equal: bool) -> Findin
     return Finding(rule, Outcome.FAILS, evidence=Counts(left.degrees, right.degrees))
 
 
-def _ordered(profile: Profile, labels: frozenset[str]) -> tuple[str, ...]:
+def _order_labels(profile: Profile, labels: frozenset[str]) -> tuple[str, ...]:
     return tuple(label for label in profile.labels if label in labels)
 
 

@@ -186,18 +186,18 @@ class Side(ABC, Generic[S]):
 
     def exact(self, other: Self) -> Finding:
         """The exact decision, for equal ranks."""
-        told = self.foreseen(other)
-        if told is not None:
-            return told
+        foreseen = self.foreseen(other)
+        if foreseen is not None:
+            return foreseen
         return self.grounded(other, self.answerer(self.exactly, self.pair(other), self.settings))
 
     def recheck(self, other: Self, evidence: Evidence) -> Finding | None:
         """Finding that the exact decision of `pair` gives with evidence of this kind: true evidence
         can have been selected, and then bounds no error.
         """
-        told = self.foreseen(other)
-        if told is not None:
-            return told if type(told.evidence) is type(evidence) else None
+        foreseen = self.foreseen(other)
+        if foreseen is not None:
+            return foreseen if type(foreseen.evidence) is type(evidence) else None
         again = self.found_again(other, evidence)
         return None if again is None else self.grounded(other, again)
 

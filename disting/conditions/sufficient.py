@@ -107,7 +107,7 @@ def condition_6(left: AnySide, right: AnySide, exhaustive: bool) -> Finding:
         return Finding(RENAMING, Outcome.HOLDS, Certainty.THEOREM, evidence=symmetry)
     if left.colouring.fingerprint != right.colouring.fingerprint:
         return Finding(RENAMING, Outcome.FAILS, note="no renaming exists")
-    return _searched(left, right)
+    return _search_renaming(left, right)
 
 
 def condition_7(left: Profile, right: Profile) -> Finding:
@@ -140,7 +140,7 @@ def condition_7(left: Profile, right: Profile) -> Finding:
     )
 
 
-def _searched(left: AnySide, right: AnySide) -> Finding:
+def _search_renaming(left: AnySide, right: AnySide) -> Finding:
     names = left.parameters, right.parameters
     candidates = list(islice(renamings(left.columns, right.columns, len(names[0])), CANDIDATES + 1))
     for images in candidates[:CANDIDATES]:

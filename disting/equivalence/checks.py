@@ -135,7 +135,7 @@ class Bench:
         """Return True if all transfer functions are equal: exact for rational values; for balls,
         none is certainly different.
         """
-        coefficients = (c for gap, _ in self._crossed(point, values) for c in gap.coeffs())
+        coefficients = (c for gap, _ in self._cross_products(point, values) for c in gap.coeffs())
         return all(c.contains(0) if isinstance(c, acb) else not c for c in coefficients)
 
     def deviation(self, point: SolutionValues, values: SolutionValues) -> float:
@@ -144,7 +144,7 @@ class Bench:
         """
         worst = 0.0
         with ctx.workprec(BITS):
-            for gap, whole in self._crossed(point, {n: acb(v) for n, v in values.items()}):
+            for gap, whole in self._cross_products(point, {n: acb(v) for n, v in values.items()}):
                 largest, rest = (
                     max((float(c.abs_upper()) for c in p.coeffs()), default=0.0)
                     for p in (whole, gap)
@@ -152,7 +152,9 @@ class Bench:
                 worst = max(worst, rest / largest if largest else 0.0)
         return worst
 
-    def _crossed(self, point: SolutionValues, values: SolutionValues) -> Iterator[tuple[Any, Any]]:
+    def _cross_products(
+        self, point: SolutionValues, values: SolutionValues
+    ) -> Iterator[tuple[Any, Any]]:
         ring = acb_poly if any(isinstance(v, acb) for v in values.values()) else fmpq_poly
         with ctx.workprec(BITS):
             for own_entry, other_entry in zip(self.given.entries, self.other.entries, strict=True):
@@ -166,11 +168,11 @@ def benches(chain: Chain, other: Chain, also: Sequence[str | Experiment]) -> Ite
     """Yield every way to place the experiments in the other chain; in the given one they are where
     they are named. Raises InputError.
     """
-    asked = [parse_experiment(e) if isinstance(e, str) else PlacedExperiment(e) for e in also]
-    used = {i for own_machine in asked for i in own_machine.experiment.masses}
+    experiments = [parse_experiment(e) if isinstance(e, str) else PlacedExperiment(e) for e in also]
+    used = {i for own_machine in experiments for i in own_machine.experiment.masses}
     own = tuple((i, i) for i in sorted(used)) if other == chain else ()
-    lefts = [Experiment(), *(own_machine.experiment for own_machine in asked)]
-    for places in ways(chain, other, asked, own):
+    lefts = [Experiment(), *(own_machine.experiment for own_machine in experiments)]
+    for places in ways(chain, other, experiments, own):
         rights = [move(e, places) for e in lefts]
         pairs = dict.fromkeys(zip(lefts, rights, strict=True))
         sides = zip(*pairs, strict=True)

@@ -44,7 +44,7 @@ def closed_forms(model: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
             if len(other.parameters) > MOST_SOLVED:
                 more = f"they have more than {MOST_SOLVED} values"
                 raise NoFormulas(f"{none}, and {more}") from none
-            the_closed_forms = _solved(this_model, two)
+            the_closed_forms = _from_sections(this_model, two)
     if not the_closed_forms:
         raise NoFormulas("none that is known is positive")
     return tuple(confirm(form, this_model, two) for form in the_closed_forms)
@@ -52,10 +52,10 @@ def closed_forms(model: AnyModel, other: AnyModel, verdict: Verdict) -> tuple[Cl
 
 def by_name(model: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm]:
     """The renaming that a verdict rests on, or the theorems on chains; none of others."""
-    return _renamed(model, other, verdict) or _of_chains(model, other)
+    return _from_renaming(model, other, verdict) or _of_chains(model, other)
 
 
-def _renamed(model: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm]:
+def _from_renaming(model: AnyModel, other: AnyModel, verdict: Verdict) -> list[ClosedForm]:
     """The renaming that a verdict rests on: of its left model's parameters to the right one's."""
     if not isinstance(verdict.evidence, Renaming):
         return []
@@ -74,7 +74,7 @@ def _of_chains(model: AnyModel, other: AnyModel) -> list[ClosedForm]:
     return [ClosedForm(model.parameters, (), tuple(sorted(formula_map.formulas.items())))]
 
 
-def _solved(model: AnyModel, other: AnyModel) -> list[ClosedForm]:
+def _from_sections(model: AnyModel, other: AnyModel) -> list[ClosedForm]:
     """Sections of the equations that hold for all generic positive values; else the roots of a
     path, one of which does, or all those known over complex values, as far as they are found to be
     positive.
@@ -87,8 +87,8 @@ def _solved(model: AnyModel, other: AnyModel) -> list[ClosedForm]:
         degree = int(root.equation.degrees()[root.at])
         if degree > QUADRATIC:
             raise NoFormulas(f"roots of a polynomial of degree {degree} are needed")
-        return _seen(_of_root(the_way, root.at, root.equation, root.values))
-    return _seen(_of_cases(model, other))
+        return _count_positive_points(_of_root(the_way, root.at, root.equation, root.values))
+    return _count_positive_points(_of_cases(model, other))
 
 
 def _of_cases(model: AnyModel, other: AnyModel) -> Iterator[ClosedForm]:
@@ -110,7 +110,7 @@ def _of_cases(model: AnyModel, other: AnyModel) -> Iterator[ClosedForm]:
         yield from _of_root(the_way, at, case.equations[0], [functions[i] for i in ring.unknowns])
 
 
-def _seen(forms: Iterable[ClosedForm]) -> list[ClosedForm]:
+def _count_positive_points(forms: Iterable[ClosedForm]) -> list[ClosedForm]:
     """Those that are positive at some points that are tried, and at how many: no proof of more."""
     counts = ((form, _positive(form)) for form in forms)
     words = "positive at {} of {} points that were tried"
@@ -129,7 +129,7 @@ def _positive(form: ClosedForm) -> int:
 
 def _of_section(field: Field, the_way: Way, section: Section) -> ClosedForm:
     values = _values(field, the_way, section.values, {})
-    where = tuple(_lifted(field, g, {}).num for g in section.where)
+    where = tuple(_lift_polynomial(field, g, {}).num for g in section.where)
     return ClosedForm(the_way.given.parameters, (), values, where=where)
 
 
@@ -138,7 +138,7 @@ def _of_root(
 ) -> list[ClosedForm]:
     """Both roots of a quadratic equation for one unknown of which all others are fractions."""
     field, ring = Field(the_way.given.parameters), the_way.parted.search.ring
-    quadratic = tuple(_lifted(field, c, {}) for c in ring.coefficients(equation, at))
+    quadratic = tuple(_lift_polynomial(field, c, {}) for c in ring.coefficients(equation, at))
     forms = list[ClosedForm]()
     for root in field.split(quadratic):
         steps, written = field.written(_values(field, the_way, values, {at: root}))
@@ -153,12 +153,15 @@ def _values(
     functions: dict[int, RationalFunction],
 ) -> Assignment:
     return tuple(
-        (name, _lifted(field, v.num, functions) / _lifted(field, v.den, functions))
+        (
+            name,
+            _lift_polynomial(field, v.num, functions) / _lift_polynomial(field, v.den, functions),
+        )
         for name, v in zip(the_way.other.parameters, values, strict=True)
     )
 
 
-def _lifted(
+def _lift_polynomial(
     field: Field, polynomial: fmpz_mpoly, functions: dict[int, RationalFunction]
 ) -> RationalFunction:
     """A polynomial of the equations in the parameters of the given model, and in a root."""

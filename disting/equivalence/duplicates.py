@@ -187,13 +187,13 @@ def gate(
             else "there are no models"
         )
     refuse_ports(made)
-    asked = query or Query(inclusion=False)
+    wanted = query or Query(inclusion=False)
     subjects = engine.general_subjects(made)
-    decided, matched = engine.decisions(subjects, asked), [s.subject for s in subjects]
+    decided, matched = engine.decisions(subjects, wanted), [s.subject for s in subjects]
     sizes = [len(m.parameters) for m in made]
     groups = [tuple(sorted(g, key=lambda i: (sizes[i], i))) for g in decided.classes()]
     dropped = {i for group in groups for i in group[1:]}
-    kept, domain = [m for i, m in enumerate(made) if i not in dropped], asked.view.domain
+    kept, domain = [m for i, m in enumerate(made) if i not in dropped], wanted.view.domain
     menus = {made[g[0]].name: _menu([made[i] for i in g], engine, costs) for g in groups}
     return Gate(
         decided,

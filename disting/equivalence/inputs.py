@@ -48,11 +48,11 @@ def chains_of(to: Chain | Family | str, chain: Chain) -> tuple[Chain, ...]:
         return (to,)
     return tuple(
         replace(c, lag=c.lag or chain.lag, dead_time=c.dead_time or chain.dead_time)
-        for c in _named(to, chain)
+        for c in _chains_by_name(to, chain)
     )
 
 
-def _named(to: Family | str, like: Chain) -> tuple[Chain, ...]:
+def _chains_by_name(to: Family | str, like: Chain) -> tuple[Chain, ...]:
     """The chains as their text names them."""
     if isinstance(to, Family):
         return to.models
@@ -61,10 +61,12 @@ def _named(to: Family | str, like: Chain) -> tuple[Chain, ...]:
     if match is None:
         return (chain_of(to, family, masses=like.n_masses),)
     plain = [extend(chain, match[3]) for chain in with_masses(family, int(match[1])).models]
-    return tuple(c for chain in plain for c in _rubbed(chain)) if match[2] else tuple(plain)
+    return (
+        tuple(c for chain in plain for c in _with_damper_sets(chain)) if match[2] else tuple(plain)
+    )
 
 
-def _rubbed(chain: Chain) -> Iterator[Chain]:
+def _with_damper_sets(chain: Chain) -> Iterator[Chain]:
     """The chain with every set of dampers to the ground."""
     masses = range(1, chain.n_masses + 1)
     for chosen in chained.from_iterable(

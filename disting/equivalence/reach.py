@@ -63,16 +63,16 @@ class Reach:
         """
         if self.is_everything or not self.pieces:
             return ""
-        where = ", or where ".join(_told(piece, other) for piece in self.pieces)
+        where = ", or where ".join(_describe_piece(piece, other) for piece in self.pieces)
         has = f"{text} has a positive equivalent {other} exactly where"
         return f"{has} {where}, special values aside."
 
 
-def _told(piece: Piece, other: str) -> str:
-    asked = " and ".join(map(inequality, piece.positive))
+def _describe_piece(piece: Piece, other: str) -> str:
+    conditions = " and ".join(map(inequality, piece.positive))
     if not piece.equation:
-        return asked
-    at = f" with {asked}" if asked else ""
+        return conditions
+    at = f" with {conditions}" if conditions else ""
     root = f"{piece.equation} = 0 has a positive root {piece.root}{at}"
     return f"{root}, the {piece.parameter} of {other}"
 
@@ -112,7 +112,7 @@ def reach(model: AnyModel, other: AnyModel) -> Reach | None:
     return Reach(_least([p for p in pieces if p]))
 
 
-def _asked(model: AnyModel, other: AnyModel, settings: Settings) -> Reach | None:
+def _compute_reach(model: AnyModel, other: AnyModel, settings: Settings) -> Reach | None:
     return reach(model, other)
 
 
@@ -128,7 +128,9 @@ def _from_dict(data: Any) -> Reach | None:
     return Reach(tuple(Piece(tuple(positive), *root) for positive, *root in data))
 
 
-REACHED = Question.plain("conditions for positive equivalents", _asked, _to_dict, _from_dict)
+REACHED = Question.plain(
+    "conditions for positive equivalents", _compute_reach, _to_dict, _from_dict
+)
 
 
 def _pieces(this_way: Way) -> Iterator[Piece | None]:
@@ -150,9 +152,9 @@ def _at_root(this_way: Way, case: Case, names: Sequence[str]) -> Piece | None:
         return None
     root = next(n for n in ROOTS if n not in this_way.given.parameters)
     called = [root if i == at else name for i, name in enumerate(names)]
-    asked = [g for g in case.positive if g != ring.generators[at]]
+    conditions = [g for g in case.positive if g != ring.generators[at]]
     return Piece(
-        _texts(asked, called),
+        _texts(conditions, called),
         polynomial_text(equation, called),
         root,
         this_way.other.parameters[at - ring.n_given],

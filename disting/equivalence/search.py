@@ -105,7 +105,7 @@ class _Found:
         return _is_complete(self.fibre)
 
 
-def _found(chain: Chain, point: Point, other: Chain) -> _Found:
+def _find_solutions(chain: Chain, point: Point, other: Chain) -> _Found:
     fibre = _fibre(chain, point, other)
     exact = [i for i in images(chain, point) if i.chain == other]
     others = [(s, Origin.SYNTHESIS) for s in _others(fibre, exact)]
@@ -116,7 +116,7 @@ def _found(chain: Chain, point: Point, other: Chain) -> _Found:
 
 
 def _listing(chain: Chain, point: Point, other: Chain) -> Listing:
-    search = _found(chain, point, other)
+    search = _find_solutions(chain, point, other)
     members = _members(search, point)
     cause = special(chain, point) if search.fibre.status is Status.DEGENERATE else ""
     text = sentence(search.fibre, len(members), cause)
@@ -135,7 +135,7 @@ def _under(bench: Bench, point: Point) -> Listing:
     """
     tried: list[_Found] = []
     for own_chain, other_chain in bench.alone:
-        tried.append(_found(own_chain, point, other_chain))
+        tried.append(_find_solutions(own_chain, point, other_chain))
         if tried[-1].is_complete:
             break
     search = next((f for f in tried if f.is_complete), tried[0])
@@ -235,7 +235,7 @@ def _from_solution(
     chain: Chain, point: Point, other: Chain, solution: Solution, origin: Origin
 ) -> Equivalent:
     real = solution.real is not Answer.NO
-    text = {name: _rounded(v, real) for name, v in solution.values.items()}
+    text = {name: _round_value(v, real) for name, v in solution.values.items()}
     residual = difference(chain, point, other, _read(text))
     unknown = Answer.UNKNOWN
     proven = solution.real is not unknown and not (real and solution.positive is unknown)
@@ -251,7 +251,7 @@ def _signs(solution: Solution, real: bool) -> Signs:
     return Signs.POSITIVE if all(v.real.mid() > 0 for v in solution.values.values()) else Signs.REAL
 
 
-def _rounded(value: Any, real: bool) -> str:
+def _round_value(value: Any, real: bool) -> str:
     if real:
         return f"{float(value.real.mid()):.15g}"
     return f"{float(value.real.mid()):.15g}{float(value.imag.mid()):+.15g}j"

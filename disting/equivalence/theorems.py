@@ -61,7 +61,8 @@ def expansions(chain: Chain) -> Iterator[Expansion]:
     if chain.collocated:
         plain = replace(chain, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=1)
         yield Expansion(
-            plain, lambda: _named(plain, *_seen(chain, chain.structure.ports, wall=False))
+            plain,
+            lambda: _name_values(plain, *_expand_row(chain, chain.structure.ports, wall=False)),
         )
     if not g:
         return
@@ -108,22 +109,22 @@ def _by_rows(start: Chain, n: int, g: int, free: bool, grounded: bool) -> Expans
             [functions[k] for k in functions if k[0] == "k"],
         )
         if free:
-            masses[g:], springs[g:] = _seen(
+            masses[g:], springs[g:] = _expand_row(
                 start, Ports(0, start.act_plus, 0, start.meas_plus), wall=False
             )
         if grounded:
-            inner = _seen(
+            inner = _expand_row(
                 start,
                 Ports(start.act_minus, 0, start.meas_minus, 0),
                 wall=True,
             )
             masses[:g], springs[:g] = inner[0][::-1], inner[1][::-1]
-        return _named(chain, masses, springs)
+        return _name_values(chain, masses, springs)
 
     return Expansion(chain, values)
 
 
-def _seen(chain: Chain, ports: Ports, *, wall: bool) -> Outwards:
+def _expand_row(chain: Chain, ports: Ports, *, wall: bool) -> Outwards:
     """The row with the receptance of the given chain between these ports."""
     structure: Structure = replace(chain.structure, ports=ports)
     ring = _ring(chain)
@@ -139,7 +140,7 @@ def _ring(chain: Chain) -> dict[str, Any]:
     return symbols(["s", *chain.parameters])
 
 
-def _named(
+def _name_values(
     chain: Chain, masses: list[RationalFunction], springs: list[RationalFunction]
 ) -> dict[str, RationalFunction]:
     return dict(zip(chain.parameters, [*masses, *springs], strict=True))
@@ -197,7 +198,10 @@ def images(chain: Chain, values: Mapping[str, Any]) -> tuple[Image, ...]:
     '2 masses, gap 0, force 2-0, sensor 2-0'
     """
     the_images: list[Image] = []
-    for image in (*_moved(Image(chain, values, ())), *_duals(Image(chain, values, ()))):
+    for image in (
+        *_move_by_symmetries(Image(chain, values, ())),
+        *_duals(Image(chain, values, ())),
+    ):
         if not any(
             image.chain == own_image.chain and image.values == own_image.values
             for own_image in the_images
@@ -217,7 +221,7 @@ def dual_chain(chain: Chain) -> Chain | None:
     return other if are_dual(chain, other) else None
 
 
-def _moved(image: Image) -> Iterator[Image]:
+def _move_by_symmetries(image: Image) -> Iterator[Image]:
     """The forms of a chain by symmetries."""
     for form in forms(image.chain):
         values = {form.renaming[name]: value for name, value in image.values.items()}
@@ -226,7 +230,9 @@ def _moved(image: Image) -> Iterator[Image]:
 
 
 def _duals(image: Image) -> Iterator[Image]:
-    for form in _moved(image):
+    for form in _move_by_symmetries(image):
         other = dual_chain(form.chain)
         if other is not None:
-            yield from _moved(Image(other, dual(form.chain, form.values), (*form.steps, DUALITY)))
+            yield from _move_by_symmetries(
+                Image(other, dual(form.chain, form.values), (*form.steps, DUALITY))
+            )

@@ -122,8 +122,8 @@ class Ranks(Kind):
         labels = [side.labels(representation, self.rows) for side in pair.sides]
         every, rows = set[str]().union(*labels), set(self.rows)
         known = rows in labels if self.all_rows else rows <= every
-        asked = tuple(every) if self.all_rows else self.rows
-        ranks = tuple(side.rank(representation, asked) for side in pair.sides)
+        needed = tuple(every) if self.all_rows else self.rows
+        ranks = tuple(side.rank(representation, needed) for side in pair.sides)
         return known and ranks == (self.left, self.right) and self.left != self.right
 
 

@@ -82,13 +82,15 @@ class Explicit(OverDomain):
 
     def sentence(self, left: str, right: str) -> str:
         """One formula each way, and how many there are."""
-        said = []
+        parts = []
         for way, source, searched in zip(BOTH, (left, right), (right, left), strict=True):
             every = [f for f in self.formulas if f[0] is way]
             more = f" ({len(every)} formulas for different parameters)" if len(every) > 1 else ""
-            said.append(f"{source} is {searched} at {_told(every[0], self.small(every[0]))}{more}")
+            parts.append(
+                f"{source} is {searched} at {_describe(every[0], self.small(every[0]))}{more}"
+            )
         values = "" if self.without_exception(Domain.POSITIVE) else " but special ones"
-        return f"{'; '.join(said)}: {self.domain} for all {self.domain} parameters{values}."
+        return f"{'; '.join(parts)}: {self.domain} for all {self.domain} parameters{values}."
 
 
 def primed(name: str) -> str:
@@ -98,14 +100,18 @@ def primed(name: str) -> str:
     return f"{name}'"
 
 
-def _told(formula: Formula, small: Labels) -> str:
+def _describe(formula: Formula, small: Labels) -> str:
     _, where, values, root = formula
-    said = ", ".join(f"{primed(name)} = {value}" for name, value in values if name not in small)
+    equations = ", ".join(
+        f"{primed(name)} = {value}" for name, value in values if name not in small
+    )
     vanishing = enumeration(map(primed, small))
-    said = f"values near {said}, {vanishing} being small" if small else said
+    equations = f"values near {equations}, {vanishing} being small" if small else equations
     which = "a" if where else "the first"  # of several, where the inequalities name one
-    said += f" with {root[0]} {which} root of {root[1]} from {root[2]} to {root[3]}" if root else ""
-    return said + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")
+    equations += (
+        f" with {root[0]} {which} root of {root[1]} from {root[2]} to {root[3]}" if root else ""
+    )
+    return equations + (f" where {' and '.join(f'{w} > 0' for w in where)}" if where else "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,12 +166,12 @@ class Inequality(OverDomain):
         >>> Inequality("positive", True, ((2, "a0", "a0"), (-1, "b1", "a2"))).spelled
         '2*a0^2 - b1*a2'
         """
-        said = ""
+        text = ""
         for number, first, second in self.form:
             size = f"{abs(number)}*" if abs(number) != 1 else ""
             sign = " - " if number < 0 else " + "
-            said += sign + size + (f"{first}^2" if first == second else f"{first}*{second}")
-        return said.removeprefix(" + ") if said.startswith(" + ") else f"-{said[len(' - ') :]}"
+            text += sign + size + (f"{first}^2" if first == second else f"{first}*{second}")
+        return text.removeprefix(" + ") if text.startswith(" + ") else f"-{text[len(' - ') :]}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,13 +217,13 @@ class Witnesses(OverDomain):
             self.solutions, f" ({self.solutions} complex)"
         )
         return (
-            f"{source} at {_spelled(self.point_with)} is {searched} at {_spelled(self.equivalent)};"
-            f" {without} at {_spelled(self.point_without)} has no equivalent in {nowhere} with"
+            f"{source} at {_spell(self.point_with)} is {searched} at {_spell(self.equivalent)};"
+            f" {without} at {_spell(self.point_without)} has no equivalent in {nowhere} with"
             f" {self.domain} parameters{many}; the same is true all around both points."
         )
 
 
-def _spelled(point: PointText) -> str:
+def _spell(point: PointText) -> str:
     return ", ".join(f"{name} = {value}" for name, value in point)
 
 
@@ -266,10 +272,10 @@ class Replacement(OfSubstitutes):
 
     def sentence(self, left: str, right: str) -> str:
         """Sentence on the networks that replace these, and on the evidence for them."""
-        said = ["all that", "the same as"]
+        words = ["all that", "the same as"]
         return (
-            f"Special values aside, A = [{self.left}] gives {said[not self.left_larger]} {left}"
-            f"{' gives' * self.left_larger}, B = [{self.right}] {said[not self.right_larger]}"
+            f"Special values aside, A = [{self.left}] gives {words[not self.left_larger]} {left}"
+            f"{' gives' * self.left_larger}, B = [{self.right}] {words[not self.right_larger]}"
             f" {right}{' gives' * self.right_larger}. {self.inner.sentence('A', 'B')}"
         )
 

@@ -119,7 +119,7 @@ class ByRows(Kind):
     def sentence(self, left: str, right: str) -> str:
         """Sentence on the result, row by row."""
         source, searched = (left, right) if self.left_given else (right, left)
-        steps = "; ".join(_told(step, searched) for step in self.steps)
+        steps = "; ".join(_describe_step(step, searched) for step in self.steps)
         if self.is_member:
             return (
                 f"Both rows of {searched} can have, at least in the limit, the receptances that"
@@ -226,7 +226,7 @@ def _step(data: dict[str, Any]) -> RowStep:
     return RowStep(str(data["split"]), str(data["part"]), read(shown, get_args(FibreEvidence)))
 
 
-def _told(step: RowStep, searched: str) -> str:
+def _describe_step(step: RowStep, searched: str) -> str:
     row = f"the {step.part} row of {searched}"
     match step.shown:
         case Vanishing():

@@ -248,9 +248,9 @@ class ModelSamples:
 
     def rank(self, representation: str, rows: Labels = ()) -> int:
         """Rank of the named rows, or of all: the largest found."""
-        seen = self._samples(representation, rows)
-        at = tuple(i for i, label in enumerate(seen[0].labels) if not rows or label in rows)
-        return max(s.rank(at) for s in seen)
+        sampled = self._samples(representation, rows)
+        at = tuple(i for i, label in enumerate(sampled[0].labels) if not rows or label in rows)
+        return max(s.rank(at) for s in sampled)
 
     def labels(self, representation: str, rows: Labels = ()) -> set[str]:
         """All invariants, with as many Markov parameters as these rows need."""

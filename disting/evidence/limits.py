@@ -43,7 +43,7 @@ class RowLimit(NamedTuple):
     def formula(self) -> str:
         """The limits, and the numbers of the count."""
         limits = [f"{element} → {limit}" for element, limit in self.steps]
-        return ", ".join(limits + ([_counted(*self.room)] if self.room else [])) or "="
+        return ", ".join(limits + ([_describe_count(*self.room)] if self.room else [])) or "="
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +71,7 @@ class Limit(Kind):
         path = "; ".join(part.sentence for part in self.parts)
         same = [
             f"{name} being the same as the chain {shape}"
-            for name, shape in self._replaced(smaller, larger)
+            for name, shape in self._replace_chains(smaller, larger)
         ]
         why = f" ({' and '.join(same)})" if same else ""
         how = "masses of a row numbered from 1 at each step"
@@ -84,7 +84,7 @@ class Limit(Kind):
         """The limits of each row."""
         return "; ".join(f"{part.given} ⇒ {part.wanted}: {part.formula}" for part in self.parts)
 
-    def _replaced(self, smaller: str, larger: str) -> list[tuple[str, tuple[int, ...]]]:
+    def _replace_chains(self, smaller: str, larger: str) -> list[tuple[str, tuple[int, ...]]]:
         return [
             (name, shape)
             for name, shape in ((smaller, self.smaller), (larger, self.larger))
@@ -120,7 +120,7 @@ class Meeting(Kind):
     @property
     def formula(self) -> str:
         """The inequality."""
-        return _counted(self.rank, self.coordinates, self.factors, self.same_mass)
+        return _describe_count(self.rank, self.coordinates, self.factors, self.same_mass)
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,7 +216,7 @@ class LimitFibre(Kind):
 AcrossSizes = Limit | Meeting | TooLarge | PoleSharing | LimitFibre
 
 
-def _counted(rank: int, coordinates: int, factors: int, same_mass: int) -> str:
+def _describe_count(rank: int, coordinates: int, factors: int, same_mass: int) -> str:
     mass = " + 1" if same_mass else ""
     return f"{rank} + {factors}{mass} ≥ {coordinates}"
 

@@ -65,7 +65,7 @@ class Interlacing(Kind):
 
     def sentence(self, source: str, other: str) -> str:
         """Sentence on the arrangements of poles and zeros that `other` lacks."""
-        lacking = [(p.part, _spelled(p.lacking)) for p in self.parts if p.lacking]
+        lacking = [(p.part, _spell_words(p.lacking)) for p in self.parts if p.lacking]
         if not lacking:
             return (
                 f"However the zeros of {source} lie between its poles, positive parameters of"
@@ -231,12 +231,12 @@ class PositiveFinding:
                 f"Which positive {source} have a positive equivalent in {other} is not known:"
                 f" {self.reason}."
             )
-        seen = (
+        sampling = (
             f" {self.empirical.sentence}."
             if self.empirical and self.share is Share.SOMETIMES
             else ""
         )
-        return self.evidence.sentence(source, other) + seen
+        return self.evidence.sentence(source, other) + sampling
 
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON; what is empty is left out."""
@@ -280,7 +280,7 @@ def _wilson(hits: int, tries: int) -> tuple[float, float]:
     )
 
 
-def _spelled(words: tuple[tuple[int, ...], ...]) -> str:
+def _spell_words(words: tuple[tuple[int, ...], ...]) -> str:
     """At most three words, such as 0-2-0."""
     shown = ", ".join("-".join(map(str, w)) for w in words[:3])
     return shown if len(words) <= 3 else f"{shown} and {len(words) - 3} more"
@@ -332,7 +332,7 @@ class RealWitnesses(Kind):
     def sentence(self, left: str, right: str) -> str:
         """Both in words."""
         source, other = (left, right) if self.without_left_given else (right, left)
-        values = ", ".join(f"{name} = {_rounded(value)}" for name, value in self.without)
+        values = ", ".join(f"{name} = {_round_value(value)}" for name, value in self.without)
         positive = self.with_one.sentence(
             *((left, right) if self.with_left_given else (right, left))
         )
@@ -342,7 +342,7 @@ class RealWitnesses(Kind):
         )
 
 
-def _rounded(value: str) -> str:
+def _round_value(value: str) -> str:
     numerator, _, denominator = value.partition("/")
     return f"{int(numerator) / int(denominator or 1):.4g}"
 

@@ -59,8 +59,8 @@ def standard(measured: MeasuredChain) -> MeasuredChain:
 
 
 def _forms(measured: MeasuredChain) -> list[MeasuredChain]:
-    both = (measured, _exchanged(measured))
-    return [*both, *map(_reflected, both)]
+    both = (measured, _exchange_ends(measured))
+    return [*both, *map(_reflect_free_row, both)]
 
 
 def _order(measured: MeasuredChain) -> tuple[object, ...]:
@@ -74,7 +74,7 @@ def _order(measured: MeasuredChain) -> tuple[object, ...]:
     return forces, chain.indices, chain.ground_dampers, experiments
 
 
-def _exchanged(measured: MeasuredChain) -> MeasuredChain:
+def _exchange_ends(measured: MeasuredChain) -> MeasuredChain:
     own = measured.chain
     chain = replace(
         own,
@@ -87,7 +87,7 @@ def _exchanged(measured: MeasuredChain) -> MeasuredChain:
     return MeasuredChain(chain, tuple(moved))
 
 
-def _reflected(measured: MeasuredChain) -> MeasuredChain:
+def _reflect_free_row(measured: MeasuredChain) -> MeasuredChain:
     own = measured.chain
     chain = replace(
         own,
@@ -130,7 +130,7 @@ def same_by_rows(left: MeasuredChain, right: MeasuredChain) -> bool:
     """
     if _factors(left.chain) != _factors(right.chain):
         return False
-    mine, theirs = _done(left), _done(right)
+    mine, theirs = _change_of(left), _change_of(right)
     if mine is None or theirs is None or (mine.kind, mine.in_free) != (theirs.kind, theirs.in_free):
         return False
     if not same_receptances(mine.elsewhere, theirs.elsewhere):
@@ -145,7 +145,7 @@ def _factors(chain: Chain) -> tuple[object, ...]:
     return chain.n_masses, chain.gap, chain.sensor, chain.lag, chain.dead_time
 
 
-def _done(measured: MeasuredChain) -> _Done | None:
+def _change_of(measured: MeasuredChain) -> _Done | None:
     """None unless a single change is made at one mass of a chain with a gap."""
     chain = measured.chain
     if not chain.gap or len(measured.experiments) != 2 or measured.experiments[0] != Experiment():

@@ -136,11 +136,11 @@ def _by_one(chain: Chain, other: Chain, number: int, settings: Settings) -> Posi
 
 def by_points(machine: MeasuredChain, other: MeasuredChain, settings: Settings) -> PositiveFinding:
     """Random points: one with a positive equivalent and one without."""
-    seen = list(_seen(machine, other, settings.seed))
-    if not seen:
+    sampled = list(_sample_answers(machine, other, settings.seed))
+    if not sampled:
         return PositiveFinding(Share.UNKNOWN, reason=NO_LIST)
-    by_answer = dict(reversed(seen))
-    answers = [answer for answer, _ in seen]
+    by_answer = dict(reversed(sampled))
+    answers = [answer for answer, _ in sampled]
     empirical = Empirical(answers.count(Answer.YES), len(answers), answers.count(Answer.UNKNOWN))
     if not {Answer.YES, Answer.NO} <= set(answers):
         return PositiveFinding(Share.UNKNOWN, empirical=empirical, reason=ONE_KIND)
@@ -155,7 +155,7 @@ def by_points(machine: MeasuredChain, other: MeasuredChain, settings: Settings) 
     )
 
 
-def _seen(
+def _sample_answers(
     machine: MeasuredChain, other: MeasuredChain, seed: str
 ) -> Iterator[tuple[Answer, ExperimentFibre]]:
     """Yield whether random positive points have a positive equivalent, each with its list."""
@@ -164,12 +164,12 @@ def _seen(
         return
     for k in range(TRIES):
         label = about(f"positive:{seed}:{k}", machine, other)
-        listed = listed_at(machine, other, at, _scaled(machine, other, label))
+        listed = listed_at(machine, other, at, _scale_values(machine, other, label))
         if listed is not None and listed.kept:
             yield answer_of(listed.kept), listed
 
 
-def _scaled(machine: MeasuredChain, other: MeasuredChain, label: str) -> dict[str, fmpq]:
+def _scale_values(machine: MeasuredChain, other: MeasuredChain, label: str) -> dict[str, fmpq]:
     values = rational_point(machine.chain, label, point_bits(other.chain))
     steps = residues(f"scale:{label}", len(values), 2 * SCALES + 2)
     return {
@@ -192,10 +192,10 @@ def by_parts(left: MeasuredChain, right: MeasuredChain, settings: Settings) -> F
     size = minor_size(maps)
     points = enough(size, settings.points)
     label = about(f"parts:{settings.seed}", *(m.content for m in maps))
-    seen = [ranks(m, [f"{label}:{k}" for k in range(points)]) for m in maps]
-    if seen[0] == seen[1]:
+    found = [ranks(m, [f"{label}:{k}" for k in range(points)]) for m in maps]
+    if found[0] == found[1]:
         return None
-    bits = safety(size, points) - ceil(log2(2 * len(seen[0])))
+    bits = safety(size, points) - ceil(log2(2 * len(found[0])))
     return Finding(EXACT, Outcome.FAILS, Certainty.BOUNDED, safety=bits)
 
 

@@ -69,18 +69,18 @@ class Experiment:
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
-        said = [
+        words = [
             f"{name}={place[0] if not place[1] else place}"
             for name, place in (("force", self.force), ("sensor", self.sensor))
             if place
         ]
-        said += [f"quantity={self.quantity.value!r}"] if self.quantity else []
+        words += [f"quantity={self.quantity.value!r}"] if self.quantity else []
         for kind in CHANGES:
             listed = self.of(kind)
             items = ", ".join(f"{c.place}: {str(c.size)!r}" for c in listed)
             what = f"{{{items}}}" if kind.takes_size else f"{tuple(c.place for c in listed)}"
-            said += [f"{kind.argument}={what}"] if listed else []
-        return f"Experiment({', '.join(said)})"
+            words += [f"{kind.argument}={what}"] if listed else []
+        return f"Experiment({', '.join(words)})"
 
     def of(self, kind: Kind) -> tuple[Change[int], ...]:
         """The changes of this kind, by mass."""
@@ -104,14 +104,14 @@ class Experiment:
         written so again.
         """
         names = "force", "sensor", "quantity"
-        said: dict[str, object] = {name: getattr(self, name) for name in names}
+        entries: dict[str, object] = {name: getattr(self, name) for name in names}
         for kind in CHANGES:
             listed = self.of(kind)
             if listed or kind.always:
-                said[kind.argument] = tuple(
+                entries[kind.argument] = tuple(
                     (c.place, c.size) if kind.takes_size else c.place for c in listed
                 )
-        return said
+        return entries
 
     def moved(self, place: Callable[[int], int]) -> "Experiment":
         """The same at the masses that its own become; the ground stays the ground."""

@@ -58,7 +58,7 @@ def identifiability_under(measured: MeasuredChain, settings: Settings) -> Parame
         plain = without_dead_time(measured)
         listed = next(lists(plain, plain, settings.seed, confirm=True), None)
         if listed is not None and _bounds(listed):
-            return _counted(measured, ranked, listed, settings)
+            return _from_list(measured, ranked, listed, settings)
     return _by_ideal(measured, ranked, settings)
 
 
@@ -81,7 +81,7 @@ def _bounds(listed: ExperimentFibre) -> bool:
     return all(s.confirmation is Confirmation.SUBSYSTEM for s in listed.fibre.solutions)
 
 
-def _counted(
+def _from_list(
     measured: MeasuredChain, ranked: Local, listed: ExperimentFibre, settings: Settings
 ) -> ParameterIdentifiability:
     """From a list: at most so many vectors fit, and one if it is the point alone."""

@@ -81,7 +81,9 @@ def shape(entry: Entry) -> Shape:
             for p in parts
         )
         return Shape(top, bottom, (entry.experiment.changes, str(parts[1])))
-    num, den = _scaled(entry, dict.fromkeys(entry.parameters, fmpz_poly([1])), fmpz_poly([0, 1]))
+    num, den = _scale_to_integers(
+        entry, dict.fromkeys(entry.parameters, fmpz_poly([1])), fmpz_poly([0, 1])
+    )
     sides = [{i for i, c in enumerate(p.coeffs()) if c} for p in (num, den)]
     sides[0] = {i + entry.sensor_order for i in sides[0]}
     common = min(sides[0] | sides[1])
@@ -95,7 +97,7 @@ def expand(entry: Entry) -> tuple[fmpz_mpoly, fmpz_mpoly]:
     common factor.
     """
     ring = symbols(["s", *entry.parameters])
-    num, den = _scaled(entry, ring, ring["s"])
+    num, den = _scale_to_integers(entry, ring, ring["s"])
     num = num * ring["s"] ** entry.sensor_order
     common = num.gcd(den)
     num, den = num // common, den // common
@@ -139,7 +141,7 @@ def _has_one_sign(entry: Entry) -> bool:
     return len(signs) == 1
 
 
-def _scaled(entry: Entry, values: Mapping[str, Whole], s: Whole) -> tuple[Whole, Whole]:
+def _scale_to_integers(entry: Entry, values: Mapping[str, Whole], s: Whole) -> tuple[Whole, Whole]:
     """Receptance num/den over the integers: A(s) times the common denominator L of what is known
     has integer entries, and its inverse is that of A(s) divided by L. T1 is no part of A(s).
     """
@@ -248,9 +250,9 @@ def rank_by(measured: MeasuredChain, names: Sequence[str], label: str) -> int:
     """
     parameters, modulus = measured.chain.parameters, prime(label)
     point = residues(f"{label}:point", len(parameters), modulus)
-    seen = seen_at(at_point(MachineModel(measured), point, modulus), Representation.TF, 0)
+    sampled = seen_at(at_point(MachineModel(measured), point, modulus), Representation.TF, 0)
     at = [parameters.index(name) for name in names]
-    return int(matrix([[row[i] for i in at] for row in seen.rows], len(at), modulus).rank())
+    return int(matrix([[row[i] for i in at] for row in sampled.rows], len(at), modulus).rank())
 
 
 def _term_bits(entry: Entry) -> int:

@@ -57,7 +57,7 @@ def _by_mass(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, Sta
     numerators = zip(first.parts[0], first.parts[1], second.parts[0], second.parts[1], strict=True)
     if not any(b and d and not (a or c) for a, b, c, d in numerators):
         return None
-    seen = [
+    observed = [
         [k for k, pair in enumerate(zip(*part, strict=True)) if any(pair)]
         for part in zip(first.parts, second.parts, strict=True)
     ]
@@ -66,7 +66,10 @@ def _by_mass(left: MeasuredChain, right: MeasuredChain) -> tuple[StackedMap, Sta
             m.chain.parameters,
             [
                 [split.inverse_mass],
-                *([part[k] for k in kept] for part, kept in zip(split.parts, seen, strict=True)),
+                *(
+                    [part[k] for k in kept]
+                    for part, kept in zip(split.parts, observed, strict=True)
+                ),
             ],
         )
         for m, split in ((left, first), (right, second))
@@ -122,7 +125,7 @@ def _fraction(entry: Entry) -> Fraction:
         for j, name in enumerate(names)
         if (name[0] == "m" or name == "T1") and _occurs(j, num, den)
     ]
-    sides = [_turned(p, turned) for p in (num, den)]
+    sides = [_turn_exponents(p, turned) for p in (num, den)]
     every = [e for side in sides for e in side]
     common = [min(e[j] for e in every) for j in range(len(names) + 1)]
     return tuple(_by_power(side, common) for side in sides)  # type: ignore[return-value]
@@ -132,7 +135,7 @@ def _occurs(at: int, num: fmpz_mpoly, den: fmpz_mpoly) -> bool:
     return any(e[at + 1] for p in (num, den) for e in p.monoms())
 
 
-def _turned(polynomial: fmpz_mpoly, at: Sequence[int]) -> dict[tuple[int, ...], int]:
+def _turn_exponents(polynomial: fmpz_mpoly, at: Sequence[int]) -> dict[tuple[int, ...], int]:
     """Exponents of s and of all parameters, those at `at` turned."""
     chosen = {j + 1 for j in at}
     return {

@@ -47,8 +47,8 @@ def confirms(
     Raises NotSeenError where a contradiction takes too long.
     """
     pair = SampledPair(
-        left=_seen(left),
-        right=_seen(right),
+        left=_sample_model(left),
+        right=_sample_model(right),
         renames=partial(is_renaming, left, right),
         found_again=partial(_found_again, left=left, right=right),
         numberings=lambda left_is_part: numberings(
@@ -110,20 +110,20 @@ def recheck_labels(
     return by_labels(evidence, *match_maps(left, right), settings.seed)
 
 
-def _seen(measured: MeasuredChain) -> ModelSamples:
+def _sample_model(measured: MeasuredChain) -> ModelSamples:
     return samples_of(MachineModel(measured))
 
 
 def check_larger(evidence: LargerProjection, left: MeasuredChain, right: MeasuredChain) -> bool:
     """Ranks of the named rows of all experiments, or of all rows of one experiment alone."""
     ranks = Ranks(evidence.rows, evidence.left, evidence.right, all_rows=False)
-    labels = set[str]().union(*(_seen(m).labels("tf") for m in (left, right)))
+    labels = set[str]().union(*(_sample_model(m).labels("tf") for m in (left, right)))
     if set(evidence.rows) <= labels:
         return confirms(ranks, left, right)
     for k in range(len(left.experiments)):
         mine, theirs = (MeasuredChain(m.chain, (m.experiments[k],)) for m in (left, right))
         rows = tuple(name.replace(f"[{k + 1}]", "[1]") for name in evidence.rows)
-        if set(rows) in [_seen(m).labels("tf") for m in (mine, theirs)]:
+        if set(rows) in [_sample_model(m).labels("tf") for m in (mine, theirs)]:
             return confirms(replace(ranks, rows=rows), mine, theirs)
     return False
 

@@ -168,7 +168,7 @@ def _block(setup: Setup, whole: Ratios, network: Network, extra: dict[Port, int]
     cells = [[whole[r][c] for c in across] for r in (*rows, *(n_out + k for k in nodes))]
     for at, (_, power, size) in enumerate(setup.changes):
         known = None if power is None else _power(whole, network, network.order - power, 1 / size)
-        cells = _changed(cells, len(rows) + at, len(columns) + at, known)
+        cells = _change_functions(cells, len(rows) + at, len(columns) + at, known)
     block = tuple(tuple(row[: len(columns)]) for row in cells[: len(rows)])
     if setup.order is None:
         return block
@@ -176,7 +176,7 @@ def _block(setup: Setup, whole: Ratios, network: Network, extra: dict[Port, int]
     return tuple(tuple(x * by for x in row) for row in block)
 
 
-def _changed(
+def _change_functions(
     cells: list[list[RationalFunction]], row: int, column: int, known: RationalFunction | None
 ) -> list[list[RationalFunction]]:
     """All transfer functions with something done at the node of this row and column; `known`:
@@ -224,11 +224,11 @@ def _gain(kind: Kind, more: Ratios, whole: Sequence[Ratios]) -> Gain:
     its sign, or follows from it, as force and sensor are at the node to which something is added.
     `whole`: as it is, and with the sensor, the force, and both at the node.
     """
-    seen = _nonzero(more)
-    if not seen:
+    measured = _nonzero(more)
+    if not measured:
         return Gain.SILENT
     known = [x for row in whole[0] for x in row]
-    if all(x in known or -x in known for x in seen):
+    if all(x in known or -x in known for x in measured):
         return Gain.REPEATS
     collocated = all(x == y for block in whole for row in block for x in row for y in known)
     return Gain.REPEATS if kind.takes_size and collocated else Gain.NEW

@@ -152,7 +152,7 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     sized = item.kind.power is not None
     if sized and not chain.lag and plain.ports == (0, item.at, 0, item.at):
         return Gain.REPEATS
-    if not further.experiment.changes and _seen(plain) == _seen(further):
+    if not further.experiment.changes and _key_of(plain) == _key_of(further):
         return Gain.REPEATS
     where = draw_point(MachineModel(both), "gain")
     first, second = where.quotients
@@ -164,15 +164,15 @@ def gain(chain: Chain, item: Item) -> Gain | None:
     if item.kind.power is not None:
         (size,) = residues_of(further.known, where.modulus).values()
         lift = item.kind.power - plain.sensor_order
-        num, den = (_shifted(p, -lift) for p in (num, den)) if lift < 0 else (num, den)
-        den = den + _shifted(first.num, lift) * size
+        num, den = (_multiply_by_power(p, -lift) for p in (num, den)) if lift < 0 else (num, den)
+        den = den + _multiply_by_power(first.num, lift) * size
     return Gain.NEW if num * second.den != second.num * den else None
 
 
-def _shifted(p: nmod_poly, by: int) -> nmod_poly:
+def _multiply_by_power(p: nmod_poly, by: int) -> nmod_poly:
     """A polynomial times s^by, itself where that is none."""
     return p * nmod_poly([0] * by + [1], p.modulus()) if by > 0 else p
 
 
-def _seen(entry: Entry) -> tuple[object, ...]:
+def _key_of(entry: Entry) -> tuple[object, ...]:
     return entry.ports, entry.sensor_order

@@ -66,7 +66,7 @@ def parse_experiment(text: str) -> PlacedExperiment:
         if kind is not None:
             ends = tuple(map(mass, value.split("-")))
             ports[key] = ends if len(ends) > 1 else ends[0]
-    agreed = _agreed(places)
+    agreed = _merge_pairs(places)
     return PlacedExperiment(Experiment(**ports, changes=changes), agreed)
 
 
@@ -81,7 +81,7 @@ def ways(
     """
     for item in asked:
         item.experiment.refuse(left)
-    fixed = dict(_agreed([*fixed_places, *(pair for item in asked for pair in item.places)]))
+    fixed = dict(_merge_pairs([*fixed_places, *(pair for item in asked for pair in item.places)]))
     used = sorted({i for item in asked for i in item.experiment.masses})
     open_ones = [i for i in used if i not in fixed]
     masses = places_of(right)
@@ -121,7 +121,7 @@ def _mass(text: str, places: list[tuple[int, int]]) -> int:
     return left
 
 
-def _agreed(pairs: Iterable[tuple[int, int]]) -> Places:
+def _merge_pairs(pairs: Iterable[tuple[int, int]]) -> Places:
     """The pairs, each once; raises InputError where one thing would be two, or two would be one."""
     agreed = tuple(sorted(set(pairs)))
     for side, name, other in ((0, "left", "right"), (1, "right", "left")):

@@ -99,40 +99,44 @@ def fit_networks(
     'R0-p(R1,C1) is the simplest that explains the data, which cannot be told from p(R0,R1-C1).'
     """
     data = [measured] if isinstance(measured, FrequencyResponse) else list(measured)
-    asked = _asked(data, networks)
+    compared = _match_quantity(data, networks)
     engine = engine or Engine()
-    subjects = engine.general_subjects(asked)
+    subjects = engine.general_subjects(compared)
     decided = engine.decisions(subjects, Query(View.POSITIVE, inclusion=False))
-    first = _first_of_same(decided, len(asked))
+    first = _first_of_same(decided, len(compared))
     cost, pairs = _cost(data), list[tuple[AnyNetworkPlant, Real]]()
     chosen = [i for i, k in enumerate(first) if i == k]
     for done, i in enumerate(chosen):
         progress("networks", done, len(chosen))
-        plant = network_plant(asked[i], [response.omega for response in data])
+        plant = network_plant(compared[i], [response.omega for response in data])
         starts = random_starts(plant, data[0], STARTS, np.random.default_rng((SEED, i)))
         pairs.append((plant, search_from(plant, cost, starts).p))
     scatter = merge(scatters(cost, [plant.response(p) for plant, p in pairs]))
     fits = [
         replace(
-            _judged(plant, p, cost, scatter, subjects[i].rank),
-            same=tuple(asked[j].name for j, k in enumerate(first) if k == i != j),
+            _refine(plant, p, cost, scatter, subjects[i].rank),
+            same=tuple(compared[j].name for j, k in enumerate(first) if k == i != j),
         )
         for i, (plant, p) in zip(chosen, pairs, strict=True)
     ]
-    classes = [[asked[j] for j, k in enumerate(first) if k == i] for i in chosen]
+    classes = [[compared[j] for j, k in enumerate(first) if k == i] for i in chosen]
     limits = _limits(fits, classes)
-    fits = _no_worse_than_contained(fits, limits, [plant for plant, _ in pairs], data, scatter)
-    fits = _left([replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits], limits)
-    ranks = {network: subject.rank for network, subject in zip(asked, subjects, strict=True)}
+    fits = _improve_to_contained(fits, limits, [plant for plant, _ in pairs], data, scatter)
+    fits = _exclude_containing(
+        [replace(f, excluded_by=_excluding(f, fits, scatter)) for f in fits], limits
+    )
+    ranks = {network: subject.rank for network, subject in zip(compared, subjects, strict=True)}
     whitened, plants = WhitenedCost(cost, scatter), [plant for plant, _ in pairs]
-    fits = _detailed(fits, classes, ranks, plants, whitened, data, progress)
+    fits = _add_intervals(fits, classes, ranks, plants, whitened, data, progress)
     ordered = tuple(sorted(fits, key=lambda f: comparable(f.chi2)))
-    whole = NetworkSelection(ordered, tuple(asked), tuple(data), scatter, decided)
+    whole = NetworkSelection(ordered, tuple(compared), tuple(data), scatter, decided)
     order = sorted(whole.fits, key=lambda f: (f is not whole.selected, f not in whole.left))
     return replace(whole, fits=tuple(order))
 
 
-def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> list[Network]:
+def _match_quantity(
+    data: Sequence[FrequencyResponse], networks: Sequence[Network]
+) -> list[Network]:
     """The networks with sensors that show what was measured; raises InputError."""
     if not networks or not data:
         raise InputError("name at least one network to fit, and a measured response")
@@ -145,13 +149,13 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
         check_range(response)
         if response.is_impedance and any(n.sort is not Sort.CIRCUIT for n in networks):
             raise InputError(f"{response.origin or 'data'}: {NO_MOTION}")
-    asked = [measured_as(network, data[0]) for network in networks]
-    for network in asked:
+    shown = [measured_as(network, data[0]) for network in networks]
+    for network in shown:
         outputs, inputs = network.shape
-        if network.shape != asked[0].shape:
+        if network.shape != shown[0].shape:
             raise InputError(
-                f"{network.name} has {outputs} x {inputs} outputs and inputs, {asked[0].name} has"
-                f" {' x '.join(map(str, asked[0].shape))}: fit them apart"
+                f"{network.name} has {outputs} x {inputs} outputs and inputs, {shown[0].name} has"
+                f" {' x '.join(map(str, shown[0].shape))}: fit them apart"
             )
         if outputs * inputs != len(data):
             raise InputError(
@@ -160,7 +164,7 @@ def _asked(data: Sequence[FrequencyResponse], networks: Sequence[Network]) -> li
             )
     if len({response.sensor for response in data}) > 1:
         raise InputError("sensors of a network show one quantity: give the responses in one")
-    return asked
+    return shown
 
 
 def _cost(data: Sequence[FrequencyResponse]) -> AnyCost:
@@ -204,7 +208,7 @@ def search_from(plant: AnyNetworkPlant, cost: AnyCost, starts: Real) -> BestFit:
     return BestFit(p, j, tuple(sorted(map(float, np.nan_to_num(costs, nan=np.inf)))))
 
 
-def _judged(
+def _refine(
     plant: AnyNetworkPlant, start: Real, cost: AnyCost, scatter: Scatter, rank: int
 ) -> FittedNetwork:
     """Refined to the last digit in units of the scatter, and compared with it."""
@@ -213,9 +217,9 @@ def _judged(
     residual, columns = whitened.of(plant, p)
     ones = np.ones(len(residual))
     missed = expected_deviation(columns, ones)
-    seen = explain(cost, residual, missed, scatter)
-    seen = replace(seen, needed=needed_lines(len(plant.parameters)))
-    level, own_noise = seen.chi2, noises(cost, residual, ones, missed)
+    explained = explain(cost, residual, missed, scatter)
+    explained = replace(explained, needed=needed_lines(len(plant.parameters)))
+    level, own_noise = explained.chi2, noises(cost, residual, ones, missed)
     return FittedNetwork(
         network=plant.network,
         values=dict(zip(plant.parameters, map(float, p), strict=True)),
@@ -226,13 +230,13 @@ def _judged(
         basis=basis_of(columns),
         noise=own_noise,
         columns=columns,
-        explains=seen.is_near,
-        apart=seen.size_level is Level.APART,
-        misses=seen.misses,
+        explains=explained.is_near,
+        apart=explained.size_level is Level.APART,
+        misses=explained.misses,
     )
 
 
-def _detailed(
+def _add_intervals(
     fits: Sequence[FittedNetwork],
     classes: Sequence[Sequence[Network]],
     ranks: Mapping[Network, int],
@@ -293,7 +297,7 @@ def _limits(fits: Sequence[FittedNetwork], classes: Sequence[Sequence[Network]])
     return limits
 
 
-def _no_worse_than_contained(
+def _improve_to_contained(
     fits: Sequence[FittedNetwork],
     limits: Limits,
     plants: Sequence[AnyNetworkPlant],
@@ -313,7 +317,7 @@ def _no_worse_than_contained(
             source = np.random.default_rng((SEED, i))
             starts = random_starts(plants[i], data[0], AGAIN, source)
             p = search_from(plants[i], cost, _at_limit(plants[i], limits[i, best], starts)).p
-            again = _judged(plants[i], p, cost, scatter, own[i].rank)
+            again = _refine(plants[i], p, cost, scatter, own[i].rank)
             own[i] = min(own[i], replace(again, same=own[i].same), key=lambda f: f.cost)
         if own[i].cost > own[best].cost * (1 + NESTED):
             own[i] = replace(own[i], residual=own[best].residual)
@@ -338,7 +342,7 @@ def _at_limit(plant: AnyNetworkPlant, limit: Minor, starts: Real) -> Real:
     return moved
 
 
-def _left(fits: Sequence[FittedNetwork], limits: Limits) -> list[FittedNetwork]:
+def _exclude_containing(fits: Sequence[FittedNetwork], limits: Limits) -> list[FittedNetwork]:
     """The fits, none of them excluded that contains one which is left, and with what each one
     contains: the selected network, or, where the data do not determine all of its values, any.
     """

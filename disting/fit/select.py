@@ -122,8 +122,8 @@ def select(
     task = Task(weighing.training(), sign or 1, bounds or {}, fixed or {}, seed)
     task = task if sign else better_sign(task, _at_home(candidates, home))
     task = locate(task, candidates, home, work.engine.store) if home else task
-    search, judging = _tried(task, candidates, weighing)
-    same_as = _represented(candidates, search, work.engine) if prune else {}
+    search, judging = _weigh_by_trial(task, candidates, weighing)
+    same_as = _find_represented(candidates, search, work.engine) if prune else {}
     fitted = [c for c in candidates if c not in same_as]
     likely = weighing.by_scatter and case is None and weights is None
     fits = _fits(fitted, search, judging, likely, method, work)
@@ -206,7 +206,7 @@ def _selection(
 ) -> Selection:
     """Selection from the fits of all candidates."""
     task, search = fits.task, fits.search
-    chosen = _chosen(fits, terms, work.engine.settings)
+    chosen = _choose(fits, terms, work.engine.settings)
     quantities = quantity_readings(
         fits.searched,
         chosen.selected.estimate if chosen.selected else None,
@@ -245,7 +245,7 @@ def _selection(
     )
 
 
-def _chosen(fits: Fits, terms: Terms, settings: Settings) -> Choice:
+def _choose(fits: Fits, terms: Terms, settings: Settings) -> Choice:
     """Choose the selected candidate and the remaining ones, and determine whether any explains the
     data.
     """
@@ -280,9 +280,9 @@ def _members(
 
 def _outside(fits: Fits, chosen: Choice) -> tuple[Outside, ...]:
     """Machines outside the candidates that explain the data on which these are judged."""
-    said, described = chosen.explanation, chosen.selected or chosen.candidates[0]
+    explanation, described = chosen.explanation, chosen.selected or chosen.candidates[0]
     is_by_scatter = fits.task is not fits.search  # else the chain is not where its misfit is least
-    if said.noisy or said.too_few or not is_by_scatter:
+    if explanation.noisy or explanation.too_few or not is_by_scatter:
         return ()
     bases = all(c.chain.gap == 0 for c in chosen.candidates)
     judging = fits.test or fits.task.cost
@@ -294,7 +294,7 @@ def _at_home(candidates: Sequence[Chain], home: Chain | None) -> Sequence[Chain]
     return [c for c in candidates if body(c) == body(home)] if home else candidates
 
 
-def _tried(
+def _weigh_by_trial(
     task: Task, candidates: Sequence[Chain], weighing: Weights
 ) -> tuple[Task, AnyCost | None]:
     """The task, its responses weighed by how their lines scatter about the best of a few candidates
@@ -307,7 +307,9 @@ def _tried(
     return replace(task, cost=cost), weighing.judging(cost, seen_by)
 
 
-def _represented(candidates: Sequence[Chain], task: Task, engine: Engine) -> dict[Chain, Chain]:
+def _find_represented(
+    candidates: Sequence[Chain], task: Task, engine: Engine
+) -> dict[Chain, Chain]:
     """Candidates that are not fitted, each with the one that represents it in all responses."""
     within = limits_of(task.bounds, task.fixed)
     # what stands for another in the first response need not do so in the others

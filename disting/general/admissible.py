@@ -75,7 +75,9 @@ class ValueSearch:
     @cached_property
     def seen(self) -> tuple[Example | None, Example | None, str]:
         """A point with and one without an equivalent, and the shares of those with one."""
-        having, lacking, shares = _seen(self.ways, self.domain, self.seed, self.effort.points)
+        having, lacking, shares = _search_examples(
+            self.ways, self.domain, self.seed, self.effort.points
+        )
         if lacking and not having and self.domain is Domain.POSITIVE:
             having = common_point(self.left, self.right)
         return having, lacking, shares
@@ -93,13 +95,13 @@ def admissible_finding(
 def by_first_inequalities(search: ValueSearch) -> Finding | None:
     """Inequalities of models of many parameters, with few starts: before eliminations."""
     found = by_inequalities(search.left, search.right, FEW) if search.size > MANY else None
-    return _shown(found) if found else None
+    return _finding_of(found) if found else None
 
 
 def by_first_lists(search: ValueSearch) -> Finding | None:
     """Lists of all equivalents of points cost milliseconds, so a few come first."""
     found = by_lists(search.left, search.right, search.seed, FIRST)
-    return _shown(found) if found else None
+    return _finding_of(found) if found else None
 
 
 def by_first_numbers(search: ValueSearch) -> Finding | None:
@@ -107,7 +109,7 @@ def by_first_numbers(search: ValueSearch) -> Finding | None:
     if search.size <= SMALL:
         return None
     found = by_numbers(search.left, search.right, search.seed, FIRST, search.effort.degree)
-    return _shown(found) if found else None
+    return _finding_of(found) if found else None
 
 
 def by_no_case(search: ValueSearch) -> Finding | None:
@@ -149,7 +151,7 @@ def by_witnesses(search: ValueSearch) -> Finding | None:
         )
     if not (having and lacking):
         return None
-    return _shown(witnesses_of(search.left, search.right, having, lacking, search.domain))
+    return _finding_of(witnesses_of(search.left, search.right, having, lacking, search.domain))
 
 
 def by_maps(search: ValueSearch) -> Finding | None:
@@ -161,14 +163,14 @@ def by_maps(search: ValueSearch) -> Finding | None:
 def by_more_lists(search: ValueSearch) -> Finding | None:
     """Lists of all equivalents of as many points as the effort allows."""
     found = by_lists(search.left, search.right, search.seed, search.effort.listed)
-    return _shown(found) if found else None
+    return _finding_of(found) if found else None
 
 
 def by_more_numbers(search: ValueSearch) -> Finding | None:
     """Searches in rounded numbers at as many points."""
     effort, having = search.effort, search.seen[0]
     found = by_numbers(search.left, search.right, search.seed, effort.listed, effort.degree, having)
-    return _shown(found) if found else None
+    return _finding_of(found) if found else None
 
 
 def by_all_inequalities(search: ValueSearch) -> Finding | None:
@@ -178,7 +180,7 @@ def by_all_inequalities(search: ValueSearch) -> Finding | None:
     most = search.effort.unknowns
     was_brief = most is not None and search.size > most
     found = None if was_brief else by_inequalities(search.left, search.right)
-    return _shown(found) if found else None
+    return _finding_of(found) if found else None
 
 
 def left_open(search: ValueSearch) -> Finding:
@@ -234,7 +236,7 @@ def _always(evidence: Explicit | None, left: AnyModel, right: AnyModel) -> Findi
     return Finding(ADMISSIBLE, Outcome.HOLDS, Certainty.PROVEN, evidence=evidence)
 
 
-def _seen(
+def _search_examples(
     ways: Ways, domain: Domain, seed: str, count_of: int
 ) -> tuple[Example | None, Example | None, str]:
     """A point with and one without an equivalent, of either model, and the shares of those with
@@ -263,6 +265,6 @@ def _seen(
     return next(iter(having), None), next(iter(lacking), None), " and ".join(shares)
 
 
-def _shown(evidence: Inequality | Witnesses) -> Finding:
+def _finding_of(evidence: Inequality | Witnesses) -> Finding:
     outcome = Outcome.FAILS if isinstance(evidence, Inequality) else Outcome.SOMETIMES
     return Finding(ADMISSIBLE, outcome, Certainty.PROVEN, evidence=evidence)

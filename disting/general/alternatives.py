@@ -144,7 +144,7 @@ def alternatives(
     fibre, goals = Fibre(Extent.UNKNOWN, reason=OTHER_ZEROS), _targets(first_model, exact)
     if [e is None for e in first_model.cells] == [e is None for e in other_model.cells]:
         equations = joint_equations(goals, other_model.entries)
-        fibre = _solved(equations, other.parameters, seed, seconds)
+        fibre = _solve_fibre(equations, other.parameters, seed, seconds)
         points = [rational_values(other, values) for values in plain]
         first = [rational(dict(point)) for point in points if _targets(other_model, point) == goals]
         others = (
@@ -167,7 +167,7 @@ def _targets(model: AnyModel, values: PointValues) -> list[Target]:
     return [target(replace(entry, name=model.name), values) for entry in model.entries]
 
 
-def _solved(
+def _solve_fibre(
     equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, seconds: float
 ) -> Fibre:
     """At once, or in a process of its own."""

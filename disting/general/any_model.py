@@ -98,10 +98,10 @@ def on_one_variable(models: Sequence[M]) -> list[M]:
     wide = max(models, key=lambda m: len(m.powers.weights), default=None)
     if wide is None or not wide.powers.weights:
         return [m if m.powers.halves == halves else in_powers(m, Powers(halves)) for m in models]
-    cells = [_doubled(cell, m.powers.halves < halves) for m in models for cell in cells_of(m)]
+    cells = [_double_powers(cell, m.powers.halves < halves) for m in models for cell in cells_of(m)]
     size = len(wide.powers.weights)
     powers = separating_weights(
-        [_padded(cell, size) for cell in cells], halves, wide.powers.exponents
+        [_pad_cell(cell, size) for cell in cells], halves, wide.powers.exponents
     )
     return [in_powers(m, powers) for m in models]
 
@@ -117,19 +117,19 @@ def in_powers(model: AnyModel, powers: Powers, places: Sequence[int] = ()) -> An
     places = places or range(len(model.powers.weights))
     if isinstance(model, MatrixModel):
         rows = (
-            tuple(None if e is None else _lifted(e, powers, places) for e in row)
+            tuple(None if e is None else _lift_exponents(e, powers, places) for e in row)
             for row in model.rows
         )
         the_model: AnyModel = replace(model, rows=tuple(rows))
     else:
-        the_model = _lifted(model, powers, places)
+        the_model = _lift_exponents(model, powers, places)
     object.__setattr__(the_model, "network", model.network)
     return the_model
 
 
-def _lifted(model: Model, powers: Powers, places: Sequence[int]) -> Model:
+def _lift_exponents(model: Model, powers: Powers, places: Sequence[int]) -> Model:
     own, size = model.powers, max(places, default=-1) + 1
-    (cell,) = (_doubled(c, own.halves < powers.halves) for c in cells_of(model))
+    (cell,) = (_double_powers(c, own.halves < powers.halves) for c in cells_of(model))
     top, bottom = ({_at(parts, places, size): c for parts, c in side.items()} for side in cell)
     names = dict(zip(places, own.exponents, strict=True))
     weights = tuple((names.get(i, n), w) for i, (n, w) in enumerate(powers.weights[:size]))
@@ -152,14 +152,14 @@ def cells_of(model: AnyModel) -> list[Cell]:
     return [out_of_v((e.numerator_terms, e.denominator_terms), e.powers) for e in model.entries]
 
 
-def _doubled(cell: Cell, is_doubled: bool) -> Cell:
+def _double_powers(cell: Cell, is_doubled: bool) -> Cell:
     """With powers of s^(1/2) in place of those of s."""
     by = 1 + is_doubled
     top, bottom = ({(i * by, *more): c for (i, *more), c in side.items()} for side in cell)
     return top, bottom
 
 
-def _padded(cell: Cell, size: int) -> Cell:
+def _pad_cell(cell: Cell, size: int) -> Cell:
     top, bottom = ({(*p, *[0] * (size + 1 - len(p))): c for p, c in side.items()} for side in cell)
     return top, bottom
 
@@ -202,13 +202,13 @@ def maps_of(left: AnyModel, right: AnyModel) -> tuple[PolynomialMap, PolynomialM
     (own_model, *more), (other_model, *others) = left.entries, right.entries
     if not more and not others:
         return match_maps(coefficient_map(own_model), coefficient_map(other_model))
-    own_stacked_map, other = _stacked(left, right)
+    own_stacked_map, other = _stack_maps(left, right)
     return own_stacked_map, other
 
 
 def map_of(model: AnyModel) -> StackedMap:
     """The polynomial map of its coefficients, for its fibre in itself."""
-    return _stacked(model)[0]
+    return _stack_maps(model)[0]
 
 
 def coefficient_map(model: Model) -> CoefficientMap:
@@ -229,12 +229,12 @@ def is_renamed(left: AnyModel, right: AnyModel, renaming: dict[str, str]) -> boo
     place = {renaming[name]: i for i, name in enumerate(left.parameters)}
     sources = [place[name] for name in right.parameters]
     return all(
-        a is b is None or (a and b and _carried(a, b, sources))
+        a is b is None or (a and b and _carries_over(a, b, sources))
         for a, b in zip(left.cells, right.cells, strict=True)
     )
 
 
-def _carried(left: Model, right: Model, sources: list[int]) -> bool:
+def _carries_over(left: Model, right: Model, sources: list[int]) -> bool:
     """Return True if the coefficients become those of the other one, with the sign of all or none
     changed.
     """
@@ -245,7 +245,7 @@ def _carried(left: Model, right: Model, sources: list[int]) -> bool:
     return left.degrees == right.degrees and moved in (wanted, negated)
 
 
-def _stacked(*models: AnyModel) -> tuple[StackedMap, ...]:
+def _stack_maps(*models: AnyModel) -> tuple[StackedMap, ...]:
     sides = [[_monic((e.numerator_terms, e.denominator_terms)) for e in m.entries] for m in models]
     return stacked_maps([_names(m) for m in models], sides)
 
@@ -257,8 +257,8 @@ def _names(model: AnyModel) -> tuple[str, ...]:
 def _monic(sides: Ratio) -> Ratio:
     """Both sides with the sign that makes a leading -1 a leading 1."""
     lead = sides[1][-1]
-    return (_negated(sides[0]), _negated(sides[1])) if lead[0][1] == -1 else sides
+    return (_negate_side(sides[0]), _negate_side(sides[1])) if lead[0][1] == -1 else sides
 
 
-def _negated(side: tuple[Terms, ...]) -> tuple[Terms, ...]:
+def _negate_side(side: tuple[Terms, ...]) -> tuple[Terms, ...]:
     return tuple(tuple((e, -c) for e, c in terms) for terms in side)

@@ -119,7 +119,7 @@ def _open(search: Search, case: Case) -> None:
     search.opened += 1
     if search.opened > CASES:
         raise TooMuch(f"more than {CASES} cases")
-    polynomials = _factored(search, case.equations)
+    polynomials = _factor_equations(search, case.equations)
     if polynomials is None:
         return
     several = next((f for f in polynomials if len(f) > 1), None)
@@ -133,7 +133,7 @@ def _open(search: Search, case: Case) -> None:
     if void is not None:
         search.closed.append(f"{void} != 0")
         return
-    if _excluded(search, plain):
+    if _close_excluded(search, plain):
         return
     step = _linear(search, plain)
     if step:
@@ -142,7 +142,7 @@ def _open(search: Search, case: Case) -> None:
         search.cases.append(replace(case, equations=plain))
 
 
-def _factored(
+def _factor_equations(
     search: Search, equations: tuple[fmpz_mpoly, ...]
 ) -> list[tuple[fmpz_mpoly, ...]] | None:
     """Factors of each equation that may vanish, those of few factors first; None if one
@@ -167,7 +167,7 @@ def _factored(
     return least
 
 
-def _excluded(search: Search, equations: tuple[fmpz_mpoly, ...]) -> bool:
+def _close_excluded(search: Search, equations: tuple[fmpz_mpoly, ...]) -> bool:
     """Close the case if two of the equations contain the same unknown and no other: its common
     roots are those of their resultant.
     """
@@ -222,8 +222,8 @@ def _place(search: Search, case: Case, at: int, rest: fmpz_mpoly, factor: fmpz_m
     """The cases of one with the unknown -rest/factor, neither side being zero."""
     ring, positive = search.ring, search.ring.domain is Domain.POSITIVE
     nonzero = unknown_factors(ring, (factor, rest) if positive else (factor,))
-    asked = (*case.positive, ring.generators[at]) if positive else case.positive
-    own_case = replace(case, positive=asked, nonzero=(*case.nonzero, *nonzero))
+    conditions = (*case.positive, ring.generators[at]) if positive else case.positive
+    own_case = replace(case, positive=conditions, nonzero=(*case.nonzero, *nonzero))
     the_case = substitute(ring, own_case, at, RationalFunction(-rest, factor))
     if isinstance(the_case, Case):
         _open(search, the_case)

@@ -79,7 +79,7 @@ class ClosedForm:
     def at(self, point: Sequence[float]) -> dict[str, complex]:
         """The values at rounded ones of the given parameters."""
         values = {n: complex(x) for n, x in zip(self.given, point, strict=True)}
-        return next(_evaluated(self, values, cmath.sqrt))
+        return next(_evaluate_form(self, values, cmath.sqrt))
 
     @property
     def text(self) -> str:
@@ -94,12 +94,12 @@ class ClosedForm:
     @property
     def named(self) -> tuple[tuple[str, str], ...]:
         """The steps, names and values in Python's notation."""
-        return tuple(self._named(text, _python_root))
+        return tuple(self._name_steps(text, _python_root))
 
     @property
     def latex(self) -> str:
         """An align environment (amsmath)."""
-        lines = [(latex_symbol(name), of) for name, of in self._named(latex, _latex_root)]
+        lines = [(latex_symbol(name), of) for name, of in self._name_steps(latex, _latex_root)]
         lines += [(f"{latex_symbol(name)}'", latex(value)) for name, value in self.values]
         rows = " \\\\\n".join(f"  {name} &= {of}" for name, of in lines)
         return f"\\begin{{align}}\n{rows}\n\\end{{align}}"
@@ -116,7 +116,7 @@ class ClosedForm:
             f" positive=True)\n{steps}equivalent = {{\n{values}}}"
         )
 
-    def _named(self, written: Writer, root: Callable[..., str]) -> Iterator[tuple[str, str]]:
+    def _name_steps(self, written: Writer, root: Callable[..., str]) -> Iterator[tuple[str, str]]:
         """Yield the steps: a value, a root, or as the other root what is left of -b/a."""
         for step in self.steps:
             if not step.root:
@@ -164,12 +164,12 @@ def _agrees(form: ClosedForm, model: AnyModel, other: AnyModel, label: str) -> b
         drawn = residues(f"{label}:{draw}", len(form.given), modulus)
         point = {n: field(x) for n, x in zip(form.given, drawn, strict=True)}
         try:
-            rows = list(_evaluated(form, point, _square_root))
+            rows = list(_evaluate_form(form, point, _square_root))
         except (ZeroDivisionError, _NoSquareError):
             continue
-        asked = [point[n] for n in model.parameters]
+        given = [point[n] for n in model.parameters]
         return all(
-            _same(model, other, asked, [values[n] for n in other.parameters]) for values in rows
+            _same(model, other, given, [values[n] for n in other.parameters]) for values in rows
         )
     raise ContradictionError("a discriminant is a square at no point that was drawn")
 
@@ -178,7 +178,7 @@ class _NoSquareError(Exception):
     """A discriminant is no square at a point."""
 
 
-def _evaluated(
+def _evaluate_form(
     form: ClosedForm, point: Mapping[str, Residue], square_root: Callable[[Residue], Residue]
 ) -> Iterator[dict[str, Residue]]:
     """Yield the values at a point, for all signs of the square roots."""

@@ -49,7 +49,7 @@ def excludes(model: Model, values: Values, other: Model, degree: int = DEGREE) -
     >>> excludes(loop, values, star)
     True
     """
-    rows = _scaled(model, values, other)
+    rows = _scale_terms(model, values, other)
     if rows is None:
         return False
     monomials = _monomials(other)
@@ -87,7 +87,7 @@ def _is_positive(products: list[SparsePolynomial]) -> bool:
     return all(total[e] > 0 for e in places)
 
 
-def _scaled(model: Model, values: Values, other: Model) -> tuple[SparsePolynomial, ...] | None:
+def _scale_terms(model: Model, values: Values, other: Model) -> tuple[SparsePolynomial, ...] | None:
     """All c_i/g_i; None where the models have other coefficients, or at p fewer or common roots."""
     mine, theirs = _coefficients(model), _coefficients(other)
     if [bool(t) for t in mine] != [bool(t) for t in theirs]:

@@ -40,14 +40,14 @@ def number_of_roots(ring: Orthant, case: Case) -> int | None:
     if ring.domain is not Domain.POSITIVE or len(case.equations) != 1 or len(free) != 1:
         return None
     (at,), (equation,) = free, case.equations
-    asked = [g for g in case.positive if g.degrees()[at]]
+    conditions = [g for g in case.positive if g.degrees()[at]]
     try:
         ends = ring.coefficients(equation, at)
         if not (ring.sign(ends[0]) and ring.sign(ends[-1])):
             return None
-        walls = (equation.derivative(at), *asked)
+        walls = (equation.derivative(at), *conditions)
         if all(_are_apart(ring, equation, wall, at) for wall in walls):
-            return _counted(ring, equation, asked, at)
+            return _count_certified(ring, equation, conditions, at)
     except TooMuch:
         pass
     return None
@@ -99,21 +99,23 @@ def _are_apart(ring: Orthant, polynomial: fmpz_mpoly, other: fmpz_mpoly, at: int
         if resultant and all(map(ring.sign, (f for f, _ in factorise(resultant)[1]))):
             return True
     everything = Orthant(0, ring.n_given + 1, Domain.POSITIVE)
-    pair = tuple(_moved(ring, everything, e, at) for e in (polynomial, other))
+    pair = tuple(_move_unknowns(ring, everything, e, at) for e in (polynomial, other))
     try:
         return not cases_of(everything, Case(pair), tuple(everything.unknowns)).cases
     except TooMuch:
         return False
 
 
-def _moved(ring: Orthant, into: Orthant, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
+def _move_unknowns(ring: Orthant, into: Orthant, polynomial: fmpz_mpoly, at: int) -> fmpz_mpoly:
     """The same with p and x as unknowns."""
     kept = (*range(ring.n_given), at)
     terms = polynomial.to_dict().items()
     return into.context.from_dict({(*(e[i] for i in kept), 0): c for e, c in terms})
 
 
-def _counted(ring: Orthant, equation: fmpz_mpoly, asked: list[fmpz_mpoly], at: int) -> int | None:
+def _count_certified(
+    ring: Orthant, equation: fmpz_mpoly, asked: list[fmpz_mpoly], at: int
+) -> int | None:
     """The number at one point, every sign certified."""
     point = {i: POINT[i % len(POINT)] for i in range(ring.n_given)}
     return count_roots_at(ring, equation, [(g,) for g in asked], (), at, point)

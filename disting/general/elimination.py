@@ -71,10 +71,10 @@ def branches(ring: Orthant, polynomial: fmpz_mpoly, other: fmpz_mpoly) -> Branch
         elif line is None or any(divides(factor, c) for c in (line[1], *contents)):
             open_.append(Branch(factor))
         else:
-            asked = [line[1], *contents]
+            wanted = [line[1], *contents]
             missed = [e for e in (polynomial, other) if not divides(factor, _on(ring, e, at, line))]
-            asked += [_on(ring, e, at, line) for e in missed[:1]]
-            generic += [_apart(ring, factor, c, kept) for c in asked]
+            wanted += [_on(ring, e, at, line) for e in missed[:1]]
+            generic += [_apart(ring, factor, c, kept) for c in wanted]
             if missed:
                 closed.append(factor)
             else:

@@ -73,9 +73,9 @@ def _space(a: object, b: object, c: object, d: object) -> StateSpace:
 
 
 def _start(x0: object, n: int) -> list[Any]:
-    if not _is_list(x0) or not _is_flat(x0) or len(_listed(x0)) != n:
+    if not _is_list(x0) or not _is_flat(x0) or len(_as_list(x0)) != n:
         raise InputError(f"x0 is a list of the {n} initial values of the states, in order")
-    return _listed(x0)
+    return _as_list(x0)
 
 
 def refuse_namesakes(*parts: object) -> None:
@@ -96,7 +96,7 @@ def polynomial(side: object, variable: str) -> Tree:
     """
     if not _is_list(side):
         return tree(side)
-    coefficients = [tree(entry) for entry in _listed(side)]
+    coefficients = [tree(entry) for entry in _as_list(side)]
     if not coefficients:
         raise InputError("a list of coefficients is not empty")
     if variable in {name for c in coefficients for name in names(c)}:
@@ -110,11 +110,11 @@ def polynomial(side: object, variable: str) -> Tree:
 
 def rows_of(entries: object) -> list[list[Any]]:
     """The rows of a matrix of transfer functions as they are given; raises InputError."""
-    if not _is_list(entries) or not all(map(_is_list, _listed(entries))):
+    if not _is_list(entries) or not all(map(_is_list, _as_list(entries))):
         raise InputError(
             'a matrix of transfer functions is a list of rows; coefficients are "num" and "den"'
         )
-    rows = [_listed(row) for row in _listed(entries)]
+    rows = [_as_list(row) for row in _as_list(entries)]
     if not rows or not rows[0] or any(len(row) != len(rows[0]) for row in rows):
         raise InputError("the rows of a matrix of transfer functions have equally many entries")
     if any(map(_is_list, (entry for row in rows for entry in row))):
@@ -123,9 +123,9 @@ def rows_of(entries: object) -> list[list[Any]]:
 
 
 def _matrix(entries: object, name: str) -> Matrix:
-    if not _is_list(entries) or not all(map(_is_list, _listed(entries))):
+    if not _is_list(entries) or not all(map(_is_list, _as_list(entries))):
         raise InputError(f"{name} is a matrix: a list of rows")
-    return [[tree(entry) for entry in _listed(row)] for row in _listed(entries)]
+    return [[tree(entry) for entry in _as_list(row)] for row in _as_list(entries)]
 
 
 def _is_flat(entries: object) -> bool:
@@ -134,7 +134,7 @@ def _is_flat(entries: object) -> bool:
 
 
 def _entries(entries: object) -> list[Any]:
-    return _listed(entries) if _is_list(entries) else [entries]
+    return _as_list(entries) if _is_list(entries) else [entries]
 
 
 def _column(entries: object) -> Matrix:
@@ -162,7 +162,7 @@ def _refuse_shape(rows: Matrix, height: int, width: int, name: str) -> None:
 
 def _symbols(value: Any) -> Iterator[Any]:
     if _is_list(value):
-        for entry in _listed(value):
+        for entry in _as_list(value):
             yield from _symbols(entry)
     elif hasattr(value, "is_Symbol"):
         yield from value.free_symbols
@@ -175,7 +175,7 @@ def _is_list(entry: object) -> bool:
     )
 
 
-def _listed(entry: Any) -> list[Any]:
+def _as_list(entry: Any) -> list[Any]:
     return list(entry) if isinstance(entry, (list, tuple)) else list(entry.tolist())
 
 

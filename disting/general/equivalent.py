@@ -78,10 +78,10 @@ def equivalents(shape: Shape, parameters: tuple[str, ...]) -> Iterator[Equivalen
     """
     for factor, _ in shape.polynomial.numer().factor()[1]:
         reduced = [g % fmpq_poly(factor) for g in shape.coordinates[1:]]
-        yield from _certified(factor, reduced, parameters)
+        yield from _certify_zeros(factor, reduced, parameters)
 
 
-def _certified(
+def _certify_zeros(
     factor: fmpz_poly, reduced: list[fmpq_poly], parameters: tuple[str, ...]
 ) -> list[Equivalent]:
     """The zeros that belong to the roots of an irreducible factor, with as many bits as the

@@ -54,7 +54,7 @@ class Expansion:
         """Value of a tree; raises InputError for x/0 and for what grows too large."""
         term = self._term(of)
         if term:
-            return self._gathered([term])
+            return self._gather_terms([term])
         match of:
             case Sum(parts):
                 terms = [self._term(part) for part in parts]
@@ -63,11 +63,11 @@ class Expansion:
                     for part, term in zip(parts, terms, strict=True)
                     if term is None
                 ]
-                return self._halved(
-                    self._plus, [self._gathered([term for term in terms if term]), *others]
+                return self._halve_powers(
+                    self._plus, [self._gather_terms([term for term in terms if term]), *others]
                 )
             case Product(parts):
-                return self._halved(self._times, [self.value(part) for part in parts])
+                return self._halve_powers(self._times, [self.value(part) for part in parts])
             case Power(base, exponent):
                 return self._power(self.value(base), exponent)
         raise TypeError(f"{type(of).__name__} is no tree")
@@ -126,7 +126,9 @@ class Expansion:
         most = min(comb(n + terms - 1, n) if terms else 1, prod(d + 1 for d in degrees))
         return most * max(terms, 1) * (1 + bits // 64)
 
-    def _halved(self, operation: Operation, values: Sequence[RationalFunction]) -> RationalFunction:
+    def _halve_powers(
+        self, operation: Operation, values: Sequence[RationalFunction]
+    ) -> RationalFunction:
         while len(values) > 1:
             pairs = [operation(a, b) for a, b in zip(values[::2], values[1::2], strict=False)]
             values = [*pairs, *values[2 * len(pairs) :]]
@@ -162,7 +164,7 @@ class Expansion:
                 raise TooLargeError
         return number, powers
 
-    def _gathered(self, terms: Sequence[Term]) -> RationalFunction:
+    def _gather_terms(self, terms: Sequence[Term]) -> RationalFunction:
         """The sum of terms."""
         at = {name: i for i, name in enumerate(self.ring)}
         total, below = dict[tuple[int, ...], Fraction](), 1

@@ -145,43 +145,43 @@ class _Reader:
             )
         parts = [self._product(depth)]
         while self.next in ("+", "-"):
-            is_negative = self._taken() == "-"
+            is_negative = self._take_token() == "-"
             part = self._product(depth)
             parts.append(negative(part) if is_negative else part)
         return parts[0] if len(parts) == 1 else Sum(tuple(parts))
 
     def _product(self, depth: int) -> Tree:
-        parts = [self._signed(depth)]
+        parts = [self._read_signed(depth)]
         while self.next in ("*", "/"):
-            divides = self._taken() == "/"
-            part = self._signed(depth)
+            divides = self._take_token() == "/"
+            part = self._read_signed(depth)
             parts.append(Power(part, -1) if divides else part)
         return parts[0] if len(parts) == 1 else Product(tuple(parts))
 
-    def _signed(self, depth: int) -> Tree:
+    def _read_signed(self, depth: int) -> Tree:
         """Powers bind closer than the signs before them: -a**2 is -(a**2), and 2**-1 is 1/2."""
         is_negative = False
         while self.next in ("+", "-"):
-            is_negative ^= self._taken() == "-"
+            is_negative ^= self._take_token() == "-"
         base = self._atom(depth)
         if self.next == "**":
-            self._taken()
+            self._take_token()
             base = power(base, self._exponent(depth + 1), short(self.text))
         return negative(base) if is_negative else base
 
     def _exponent(self, depth: int) -> int:
         if depth > DEEPEST:
             raise self.error()
-        exponent = self._signed(depth)
+        exponent = self._read_signed(depth)
         if not isinstance(exponent, Fraction) or exponent.denominator != 1:
             raise InputError(f"{short(self.text)}: exponents are whole numbers")
         return int(exponent)
 
     def _atom(self, depth: int) -> Tree:
-        token = self._taken()
+        token = self._take_token()
         if token == "(":
             inside = self.sum(depth + 1)
-            if self._taken() != ")":
+            if self._take_token() != ")":
                 raise self.error()
             return inside
         if token and (token[0].isdigit() or token[0] == "."):
@@ -202,7 +202,7 @@ class _Reader:
         except ValueError:
             raise self.error() from None
 
-    def _taken(self) -> str:
+    def _take_token(self) -> str:
         token, self.next = self.next, next(self._tokens)
         return token
 

@@ -67,7 +67,7 @@ def solve(
         return Fibre(Extent.NONE)
     if ideal.free:
         return _family(equations, ideal, parameters, seed, bounds)
-    listed = _listed(equations, parameters, seed, bounds)
+    listed = _list_solutions(equations, parameters, seed, bounds)
     if listed is None:
         return Fibre(
             Extent.UNKNOWN, reason="no linear form tells the finitely many solutions apart"
@@ -75,7 +75,7 @@ def solve(
     return Fibre(Extent.FINITE, listed)
 
 
-def _listed(
+def _list_solutions(
     equations: tuple[Sparse, ...], parameters: tuple[str, ...], seed: str, bounds: Bounds
 ) -> tuple[Equivalent, ...] | None:
     """Finitely many solutions, ordered by their values."""
@@ -99,7 +99,9 @@ def without_zeros(
     choices = (c for count in (0, *unknowns) for c in combinations(unknowns, count))
     for chosen in choices:
         try:
-            the_shape = shape(_inverted(equations, chosen), len(parameters) + 1, bounds, seed)
+            the_shape = shape(
+                _invert_unknowns(equations, chosen), len(parameters) + 1, bounds, seed
+            )
         except TooLarge:
             continue
         if the_shape:
@@ -112,7 +114,7 @@ def without_zeros(
     return None
 
 
-def _inverted(equations: Sequence[Sparse], chosen: tuple[int, ...]) -> list[Sparse]:
+def _invert_unknowns(equations: Sequence[Sparse], chosen: tuple[int, ...]) -> list[Sparse]:
     """The equations in the inverses of the chosen unknowns, and that no unknown is zero."""
     made = list[Sparse]()
     for equation in equations:
@@ -142,14 +144,14 @@ def _family(
     members, names, successes = list[Equivalent](), dict[str, None](), 0
     for draw in range(DRAWS):
         cut, fixed = _cut(equations, ideal, f"{seed}:{draw}", bounds)
-        the_equivalents = _listed(cut, parameters, seed, bounds) if fixed else None
+        the_equivalents = _list_solutions(cut, parameters, seed, bounds) if fixed else None
         if the_equivalents:
             successes += 1
             members += [equivalent for equivalent in the_equivalents if equivalent not in members]
             names |= {parameters[i - 1]: None for i in fixed}
         if successes >= MEMBERS and any(x.domain is Domain.POSITIVE for x in members):
             break
-    return Fibre(Extent.FAMILY, tuple(members), tuple(names), _excluded(ideal))
+    return Fibre(Extent.FAMILY, tuple(members), tuple(names), _excluded_domains(ideal))
 
 
 def _cut(
@@ -164,7 +166,7 @@ def _cut(
         candidates = [i for i in ideal.free if i]
         at = candidates[residues(f"which:{label}:{len(fixed)}", 1, len(candidates) + 1)[0] - 1]
         for choice in range(CHOICES):
-            tried = (*equations, _fixed(at, ideal.size, f"{label}:{at}:{choice}"))
+            tried = (*equations, _fix_unknown(at, ideal.size, f"{label}:{at}:{choice}"))
             smaller = basis(tried, ideal.size, bounds)
             if not smaller.is_one:
                 break
@@ -174,13 +176,13 @@ def _cut(
     return equations, fixed
 
 
-def _fixed(at: int, size: int, label: str) -> Sparse:
+def _fix_unknown(at: int, size: int, label: str) -> Sparse:
     """x - p/q with p, q of 1..12."""
     p, q = residues(label, 2, 13)
     return {tuple(int(i == at) for i in range(size)): q, (0,) * size: -p}
 
 
-def _excluded(ideal: Basis) -> tuple[Domain, ...]:
+def _excluded_domains(ideal: Basis) -> tuple[Domain, ...]:
     """Domains in which one polynomial of the basis alone has no zero."""
     plain = [p for p in ideal.polynomials if not int(p.degrees()[0])]
     if any(_has_no_real_zero(p) for p in plain):

@@ -163,14 +163,14 @@ def one_less(whole: Network, at: int, contracted: bool) -> Network | None:
     rest = [e for i, e in enumerate(whole.elements) if i != at]
     kept = [m for e in rest if (m := move(e, places)) is not None]
     ports = [Port(places[p.plus], places[p.minus]) for p in (force, sensor)]
-    seen = [kept[i] for i in sorted(seen_by_blocks(kept, ports[:1], ports[1:]))]
-    if not seen:
+    observable = [kept[i] for i in sorted(seen_by_blocks(kept, ports[:1], ports[1:]))]
+    if not observable:
         return None
-    if not any(0 in (*e.nodes, 0)[:2] for e in seen):  # it floats: one end becomes its ground
-        places = {i: i for e in seen for i in e.nodes} | {ports[0].minus: 0}
-        seen = [m for e in seen if (m := move(e, places)) is not None]
+    if not any(0 in (*e.nodes, 0)[:2] for e in observable):  # it floats: one end becomes its ground
+        places = {i: i for e in observable for i in e.nodes} | {ports[0].minus: 0}
+        observable = [m for e in observable if (m := move(e, places)) is not None]
         ports = [Port(places[p.plus], places[p.minus]) for p in ports]
-    return Network(tuple(seen), (ports[0],), (ports[1],), whole.order)
+    return Network(tuple(observable), (ports[0],), (ports[1],), whole.order)
 
 
 def orientation(model: Model, at: Equivalent) -> int:

@@ -161,7 +161,7 @@ class Field(Arithmetic):
         if letters(value.num) + letters(value.den) <= self.letters:
             return value
         step = next((s for s in self.steps if not s.root and s.value == value), None)
-        return self[step.name] if step else self._named(0, value)
+        return self[step.name] if step else self._name_value(0, value)
 
     def number(self, value: int) -> RationalFunction:
         """A constant."""
@@ -179,10 +179,10 @@ class Field(Arithmetic):
         if steps:
             function, other = (self[s.name] for s in steps)
         else:
-            function, other = (self._named(1, self.one, quadratic, sign) for sign in (1, -1))
+            function, other = (self._name_value(1, self.one, quadratic, sign) for sign in (1, -1))
         return function, other
 
-    def _named(
+    def _name_value(
         self, letter: int, value: RationalFunction, root: Poly = (), sign: int = 1
     ) -> RationalFunction:
         start = self._letters[letter]
@@ -196,7 +196,7 @@ class Field(Arithmetic):
         """The steps that values are made of, renumbered, and the values: one that is a name that
         occurs nowhere else is written out.
         """
-        steps = {s.name: s for s in self._needed(v for _, v in values)}
+        steps = {s.name: s for s in self._steps_of(v for _, v in values)}
         used = Counter(
             name
             for v in (*(v for _, v in values), *(x for s in steps.values() for x in s.made_of))
@@ -219,7 +219,7 @@ class Field(Arithmetic):
             tuple((name, compose(v, by)) for name, v in kept.items()),
         )
 
-    def _needed(self, values: Iterable[RationalFunction]) -> tuple[Step, ...]:
+    def _steps_of(self, values: Iterable[RationalFunction]) -> tuple[Step, ...]:
         wanted, kept = {n for v in values for n in names_in(v)}, list[Step]()
         for step in reversed(self.steps):
             if step.name in wanted or (step.root and self._other_root(step) in wanted):

@@ -81,7 +81,7 @@ def by_forms(
         forms = forms_of(left, right, larger)
         if forms is None or forms.are_drawn(left, right):
             continue
-        the_finding = _answered(*forms.models, seed, effort)
+        the_finding = _answer(*forms.models, seed, effort)
         if larger and the_finding.outcome is not Outcome.FAILS:
             continue
         if isinstance(
@@ -105,7 +105,7 @@ def by_inverse(
         return None
     finding = by_forms(*models, settings.seed, effort)
     if finding is None:
-        finding = _answered(*models, settings.seed, effort)
+        finding = _answer(*models, settings.seed, effort)
     if isinstance(
         finding.evidence, Explicit | NoEquivalent | Inequality | Witnesses | Theorem | Replacement
     ):
@@ -129,7 +129,7 @@ def inverse_of(left: AnyModel, right: AnyModel) -> tuple[AnyModel, AnyModel] | N
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _answered(left: AnyModel, right: AnyModel, seed: str, effort: Effort) -> Finding:
+def _answer(left: AnyModel, right: AnyModel, seed: str, effort: Effort) -> Finding:
     return admissible_finding(left, right, Domain.POSITIVE, seed, effort)
 
 

@@ -110,11 +110,11 @@ def global_identifiability(
     )
 
 
-def _encoded(answer: GlobalIdentifiability) -> str:
+def _encode(answer: GlobalIdentifiability) -> str:
     return json.dumps(asdict(answer), separators=(",", ":"))
 
 
-def _decoded(text: str) -> GlobalIdentifiability:
+def _decode(text: str) -> GlobalIdentifiability:
     data = json.loads(text)
     local = data["local"]
     return GlobalIdentifiability(
@@ -138,7 +138,7 @@ def _cheaply(model: AnyModel, settings: Settings) -> GlobalIdentifiability:
     return global_identifiability(model, settings, tries=TRIES if few else 0)
 
 
-IDENTIFIABILITY = Question("identifiability of general models", _cheaply, _encoded, _decoded)
+IDENTIFIABILITY = Question("identifiability of general models", _cheaply, _encode, _decode)
 
 
 def _combinations(

@@ -71,7 +71,7 @@ def path(ring: Orthant, case: Case) -> Path | None:
         return _root(ring, case, free[0])
     for at in free:
         for num, den in islice(_candidates(ring), CHOICES):
-            chosen = _chosen(ring, case, at, RationalFunction(num, den))
+            chosen = _choose_case(ring, case, at, RationalFunction(num, den))
             the_path = _root(ring, chosen, next(i for i in free if i != at)) if chosen else None
             if the_path:
                 return the_path
@@ -86,7 +86,7 @@ def odd_path(ring: Orthant, case: Case) -> Path | None:
     if len(case.equations) != 1 or len(free) != 1 or case.equations[0].degrees()[free[0]] % 2 == 0:
         return None
     polynomial, zero = ring.number(1), ring.number(0)
-    return _known(ring, case, free[0], (-polynomial, zero), (polynomial, zero))
+    return _complete_path(ring, case, free[0], (-polynomial, zero), (polynomial, zero))
 
 
 def by_count(ring: Orthant, case: Case) -> Path | None:
@@ -99,37 +99,37 @@ def by_count(ring: Orthant, case: Case) -> Path | None:
         return None
     (at,) = ring.occurring(case.equations)
     polynomial, zero = ring.number(1), ring.number(0)
-    the_path = _known(ring, case, at, (zero, polynomial), (polynomial, zero))
+    the_path = _complete_path(ring, case, at, (zero, polynomial), (polynomial, zero))
     return the_path and replace(the_path, where=case.positive)
 
 
-def _chosen(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case | None:
+def _choose_case(ring: Orthant, case: Case, at: int, value: RationalFunction) -> Case | None:
     the_case = substitute(ring, case, at, value)
     return the_case if isinstance(the_case, Case) and ring.occurring(the_case.equations) else None
 
 
 def _root(ring: Orthant, case: Case, at: int) -> Path | None:
-    ends, equation = _marked(ring, case, at), case.equations[0]
+    ends, equation = _mark_ends(ring, case, at), case.equations[0]
     for low, high in combinations([e for e in ends if e.inside], 2):
-        if _changed(ring, equation, at, low, high) and all(
+        if _sign_change(ring, equation, at, low, high) and all(
             _holds_between(ring, g, at, low.end, high.end) for g in case.positive
         ):
-            return _known(ring, case, at, low.end, high.end)
+            return _complete_path(ring, case, at, low.end, high.end)
     for start, goal in permutations(ends, 2):
-        sign = _changed(ring, equation, at, start, goal) if start.inside else 0
+        sign = _sign_change(ring, equation, at, start, goal) if start.inside else 0
         if sign and all(
             _holds_to_root(ring, g, sign * equation, at, (start.end, goal.end))
             for g in case.positive
         ):
-            return _known(ring, case, at, start.end, goal.end)
+            return _complete_path(ring, case, at, start.end, goal.end)
     return None
 
 
-def _changed(ring: Orthant, equation: fmpz_mpoly, at: int, low: Mark, high: Mark) -> int:
+def _sign_change(ring: Orthant, equation: fmpz_mpoly, at: int, low: Mark, high: Mark) -> int:
     """The sign at the one end if it is found to be opposite to that at the other one, else 0."""
     if low.sign == high.sign:
         return 0
-    signs = [_seen(ring, ring.put(equation, at, *mark.end)[0]) for mark in (low, high)]
+    signs = [_sign_of(ring, ring.put(equation, at, *mark.end)[0]) for mark in (low, high)]
     return signs[1] if signs[0] * signs[1] < 0 else 0
 
 
@@ -145,13 +145,13 @@ def _holds_to_root(
     sign = ring.sign(lead)
     if not (sign and polynomial.degrees()[at]):
         return False
-    if _seen(ring, ring.put(polynomial, at, *way[0])[0]) <= 0:
+    if _sign_of(ring, ring.put(polynomial, at, *way[0])[0]) <= 0:
         return False
     rest = remainder(ring, equation, sign * polynomial, sign * lead, at)
     return _holds_between(ring, rest, at, *way)
 
 
-def _known(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | None:
+def _complete_path(ring: Orthant, case: Case, at: int, low: End, high: End) -> Path | None:
     """The path, unless a polynomial that must not be zero has a common root with the equation
     for all p.
     """
@@ -172,13 +172,13 @@ def _of_odd_roots(equation: fmpz_mpoly, at: int) -> fmpz_mpoly:
     return prod((f for f, power in parts if f.degrees()[at] and power % 2), start=equation**0)
 
 
-def _seen(ring: Orthant, polynomial: fmpz_mpoly) -> int:
+def _sign_of(ring: Orthant, polynomial: fmpz_mpoly) -> int:
     """The sign of a polynomial if all its factors show theirs."""
     sign, factors = (0, ()) if polynomial.is_zero() else ring.parts(polynomial, odd=True)
     return 0 if factors else sign
 
 
-def _marked(ring: Orthant, case: Case, at: int) -> list[Mark]:
+def _mark_ends(ring: Orthant, case: Case, at: int) -> list[Mark]:
     """Ends at which the equation seems to have one sign: where to look."""
     marks = []
     for end in _ends(ring, case, at):

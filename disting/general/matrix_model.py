@@ -376,7 +376,7 @@ class MatrixModel(NotebookTable):
         G(s) = [[c/(k + s)], [c]]
         """
         ratios, parameters = transfer_functions(a, b, c, d, s, x0)
-        return of_ratios([*ratios, *_shown(known, parameters, ratios[0])], parameters, name)
+        return of_ratios([*ratios, *_rows_of_known(known, parameters, ratios[0])], parameters, name)
 
     @staticmethod
     def from_transfer_functions(
@@ -400,7 +400,7 @@ class MatrixModel(NotebookTable):
         """The transfer functions of a network, a row for each output, a column for each input;
         raises InputError.
         """
-        rows = tuple(tuple(_counted(cell) for cell in row) for row in network.cells)
+        rows = tuple(tuple(_count_cell(cell) for cell in row) for row in network.cells)
         if all(is_known for row in rows for is_known, _ in row):
             entries = tuple(tuple(entry for _, entry in row) for row in rows)
             model = MatrixModel(network.parameters, entries, network.name)
@@ -442,7 +442,7 @@ class MatrixModel(NotebookTable):
         return self.parameters, self.shape, *(e and e.content[1:] for e in self.cells)
 
     def __str__(self) -> str:
-        rows = (", ".join(_written(row)) for row in self.rows)
+        rows = (", ".join(_write_row(row)) for row in self.rows)
         return f"G(s) = [{', '.join(f'[{row}]' for row in rows)}]"
 
 
@@ -450,7 +450,7 @@ AnyModel = Model | MatrixModel
 """A general model."""
 
 
-def _counted(cell: Network) -> tuple[bool, Model | None]:
+def _count_cell(cell: Network) -> tuple[bool, Model | None]:
     """Pair of a flag, True if the function of a network between two ports is known without its
     terms, and its model.
     """
@@ -460,7 +460,7 @@ def _counted(cell: Network) -> tuple[bool, Model | None]:
     return is_known, unwritten(replace(cell, name="entry")) if is_known else None
 
 
-def _shown(
+def _rows_of_known(
     names: Sequence[str], parameters: tuple[str, ...], like: Sequence[RationalFunction]
 ) -> Iterator[tuple[RationalFunction, ...]]:
     """Yield a row for each known parameter, which shows it; raises InputError for other names."""
@@ -475,7 +475,7 @@ def _shown(
         yield (*[zero] * (len(like) - 1), RationalFunction(value, value**0))
 
 
-def _written(row: tuple[Model | None, ...]) -> Iterator[str]:
+def _write_row(row: tuple[Model | None, ...]) -> Iterator[str]:
     for entry in row:
         yield "0" if entry is None else str(entry).removeprefix("G(s) = ")
 

@@ -90,7 +90,7 @@ def as_entry(model: AnyModel) -> dict[str, object]:
     refuse_s(model)
     chain = as_chain(model)
     if chain is not None and _can_be_listed(chain):
-        return {"name": model.name, **_of_listed(chain)}
+        return {"name": model.name, **_list_entry(chain)}
     if model.network is not None:
         return {"name": model.name, **entry_of(model.network)}
     if isinstance(model, Model):
@@ -155,8 +155,8 @@ def _of_flows(entry: Plain, variable: str, name: str) -> MatrixModel:
     lost = [i for i in start if i not in nodes - {"0"}]
     if lost:
         raise InputError(f'"x0" has compartment {short(lost[0])}, which none of the flows has')
-    asked = entry.get("input", [])
-    inputs = asked if isinstance(asked, list) else [asked]
+    given = entry.get("input", [])
+    inputs = given if isinstance(given, list) else [given]
     plain = {key: value for key, value in entry.items() if key not in ("x0", "known")}
     network = network_of_entry({**plain, "input": [*inputs, *start]}, name)
     a, b, c = space_of_flows(network)
@@ -197,7 +197,7 @@ def _can_be_listed(chain: Chain) -> bool:
     return chain.n_masses <= LARGEST_CHAIN and not name_of(chain).startswith("(")
 
 
-def _of_listed(chain: Chain) -> dict[str, object]:
+def _list_entry(chain: Chain) -> dict[str, object]:
     return {"chain": name_of(chain), "damped": chain.damped, "sensor": chain.sensor.value}
 
 

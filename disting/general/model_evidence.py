@@ -156,8 +156,8 @@ def _has(
     points have some.
     """
     return any(
-        seen and all(isclose(x, y, rel_tol=ROUNDED) for x, y in zip(seen, stated, strict=True))
-        for seen in _equivalents(model, other, values, stated, domain)
+        found and all(isclose(x, y, rel_tol=ROUNDED) for x, y in zip(found, stated, strict=True))
+        for found in _equivalents(model, other, values, stated, domain)
     )
 
 

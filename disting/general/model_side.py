@@ -225,7 +225,7 @@ class ComparedModel(Side[AnyModel]):
             return False
         pair = self.subject, other.subject
         if isinstance(evidence, OverDomain):
-            pair = _unnamed(self, other)
+            pair = _strip_names(self, other)
         return model_evidence.confirms_models(evidence, *pair, representation)
 
     def admissible(
@@ -236,15 +236,15 @@ class ComparedModel(Side[AnyModel]):
         """
         if isinstance(why, Renaming):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note="the renaming tells it")
-        told = _theorem(self, other, domain)
-        if told is not None and not _is_asked(self, other, domain):
-            return told
+        decided = _theorem(self, other, domain)
+        if decided is not None and not _is_asked(self, other, domain):
+            return decided
         if not (self.is_writable and other.is_writable):
             return Finding(ADMISSIBLE, Outcome.ABANDONED, note=TOO_MANY_TERMS)
         question, models = _question(self, other, domain)
         finding = self._in_every_order(other, self.answerer(question, models, self.settings))
-        if told is not None and finding.outcome is not Outcome.HOLDS:
-            return told
+        if decided is not None and finding.outcome is not Outcome.HOLDS:
+            return decided
         return replace(finding, note=with_names(finding.note, self.name, other.name))
 
     def inclusions(self, other: "ComparedModel") -> Inclusions:
@@ -264,9 +264,9 @@ class ComparedModel(Side[AnyModel]):
     @classmethod
     def prepare_admissible(cls, pairs: Sequence[ModelPair], domain: Domain, ask: Ask) -> None:
         """Have equivalents looked for; those that a renaming gives cost little."""
-        asked = [_question(a, b, domain) for a, b in pairs if _is_asked(a, b, domain)]
+        questions = [_question(a, b, domain) for a, b in pairs if _is_asked(a, b, domain)]
         for question in (PLAIN_MAPS, ADMISSIBLY[domain]):
-            ask(question, [models for q, models in asked if q is question])
+            ask(question, [models for q, models in questions if q is question])
 
 
 def positive_question(
@@ -284,12 +284,12 @@ def _question(
     """For networks that are equivalent by a theorem only a map without exception adds
     information.
     """
-    told = _theorem(left, right, domain)
-    question = ADMISSIBLY[domain] if told is None else PLAIN_MAPS
-    return question, _unnamed(left, right)
+    decided = _theorem(left, right, domain)
+    question = ADMISSIBLY[domain] if decided is None else PLAIN_MAPS
+    return question, _strip_names(left, right)
 
 
-def _unnamed(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
+def _strip_names(left: ComparedModel, right: ComparedModel) -> tuple[AnyModel, AnyModel]:
     """Both in the form in which they are decided over real and positive parameters."""
     return left.asked_about[0], right.asked_about[1]
 
@@ -304,8 +304,8 @@ def _theorem(left: ComparedModel, right: ComparedModel, domain: Domain) -> Findi
 def _is_asked(left: ComparedModel, right: ComparedModel, domain: Domain) -> bool:
     renamed = left.colouring.fingerprint == right.colouring.fingerprint
     written = left.is_writable and right.is_writable
-    told = _theorem(left, right, domain)
-    evidence = None if told is None else told.evidence
+    decided = _theorem(left, right, domain)
+    evidence = None if decided is None else decided.evidence
     settled = evidence is not None and evidence.without_exception(domain)
     return written and not renamed and not settled
 

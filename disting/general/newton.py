@@ -81,7 +81,7 @@ def find_equivalent(
     wanted = [float(g / system.wanted[0]) for g in system.wanted[1:]]
     searched = values_near(system.rows, wanted, system.unknowns)
     for start in chain([near] if near else [], searched):
-        equivalent = _certified(system, start)
+        equivalent = _certify(system, start)
         if equivalent:
             return equivalent
     return None
@@ -146,14 +146,14 @@ def _pivots(vectors: Sequence[Sequence[Fraction]]) -> list[int]:
     return [next(j for j in range(len(vectors)) if reduced[i, j]) for i in range(rank)]
 
 
-def _certified(system: System, start: Sequence[float]) -> tuple[float, ...] | None:
+def _certify(system: System, start: Sequence[float]) -> tuple[float, ...] | None:
     """The values, if the theorem shows an equivalent near them."""
     with ctx.workprec(BITS):
-        chosen = _chosen(system, start)
-        middle = _improved(system, [arb(x) for x in start], chosen)
+        chosen = _choose_unknowns(system, start)
+        middle = _improve(system, [arb(x) for x in start], chosen)
         for radius in RADII if middle else ():
             box = [arb(x, radius * x) if j in chosen else x for j, x in enumerate(middle)]
-            step = _solved(_derivatives(system, box, chosen), _errors(system, middle))
+            step = _solve_all(_derivatives(system, box, chosen), _errors(system, middle))
             if (
                 step is not None
                 and all(box[j].contains(middle[j] - step[i, 0]) for i, j in enumerate(chosen))
@@ -163,7 +163,7 @@ def _certified(system: System, start: Sequence[float]) -> tuple[float, ...] | No
     return None
 
 
-def _chosen(system: System, start: Sequence[float]) -> list[int]:
+def _choose_unknowns(system: System, start: Sequence[float]) -> list[int]:
     """As many unknowns as equations, those on which these depend most."""
     import numpy as np
     from scipy.linalg import qr
@@ -176,10 +176,10 @@ def _chosen(system: System, start: Sequence[float]) -> list[int]:
     return sorted(map(int, qr(np.array(table), mode="r", pivoting=True)[1][:count]))
 
 
-def _improved(system: System, values: list[arb], chosen: list[int]) -> list[arb]:
+def _improve(system: System, values: list[arb], chosen: list[int]) -> list[arb]:
     """Numbers some steps of Newton's method further; none if they are not positive."""
     for _ in range(STEPS):
-        step = _solved(_derivatives(system, values, chosen), _errors(system, values))
+        step = _solve_all(_derivatives(system, values, chosen), _errors(system, values))
         if step is None:
             return []
         for i, j in enumerate(chosen):
@@ -189,7 +189,7 @@ def _improved(system: System, values: list[arb], chosen: list[int]) -> list[arb]
     return values
 
 
-def _solved(matrix: arb_mat, right: arb_mat) -> arb_mat | None:
+def _solve_all(matrix: arb_mat, right: arb_mat) -> arb_mat | None:
     """All solutions for all matrices in these intervals; None if one may be singular."""
     try:
         return matrix.solve(right)
@@ -208,7 +208,7 @@ def _follow(system: System, box: Sequence[arb]) -> bool:
     for i in system.others:
         hull[i] = hull[i].union(balls[i] / balls[0] * hull[0])
     table = [[slope(r, hull, i, arb(0)) for i in system.others] for r in system.relations]
-    return _solved(arb_mat(table), arb_mat([[0]] * len(table))) is not None
+    return _solve_all(arb_mat(table), arb_mat([[0]] * len(table))) is not None
 
 
 def _errors(system: System, values: Sequence[arb]) -> arb_mat:

@@ -49,7 +49,7 @@ TERMS = 150  # of a coefficient: quotients of larger ones would take seconds
 
 def same_one_ports(left: Model, right: Model) -> bool:
     """Return True if both models give, for positive parameters, all functions of the same set K."""
-    for change in (_plain, _over_s, _squared):
+    for change in (_plain, _over_s, _square_variable):
         model, other = change(left), change(right)
         if model and other and _kind(model) == _kind(other) and fills(model) and fills(other):
             return True
@@ -185,7 +185,7 @@ def _over_s(model: Model) -> Model | None:
     return replace(model, denominator_terms=((), *bottom))
 
 
-def _squared(model: Model) -> Model | None:
+def _square_variable(model: Model) -> Model | None:
     """F with F(s^2) = G or G/s, if there is one."""
     for changed in (model, _over_s(model)):
         if (

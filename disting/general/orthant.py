@@ -209,9 +209,9 @@ class Orthant:
         number, factors = factorise(polynomial)
         sign, kept = 1 if number > 0 else -1, []
         for factor, power in factors:
-            seen = self.sign(factor)
-            if seen:
-                sign *= seen if power % 2 else 1
+            known = self.sign(factor)
+            if known:
+                sign *= known if power % 2 else 1
             elif power % 2 or not odd:
                 kept.append(factor)
         return sign, tuple(kept)

@@ -152,14 +152,14 @@ def powers_of(
     if not exponents:
         return Powers(halves)
     cells = [cell_in(ratio, exponents, size) for ratio in ratios]
-    seen = [j for j, name in enumerate(exponents) if _degree(cells, j + 1)]
-    unseen = tuple(name for j, name in enumerate(exponents) if j not in seen)
-    if len(seen) > MOST_EXPONENTS:
+    used = [j for j, name in enumerate(exponents) if _degree(cells, j + 1)]
+    unseen = tuple(name for j, name in enumerate(exponents) if j not in used)
+    if len(used) > MOST_EXPONENTS:
         raise InputError(
-            f"a network has {MOST_EXPONENTS} different exponents at most, not {len(seen)}: let some"
+            f"a network has {MOST_EXPONENTS} different exponents at most, not {len(used)}: let some"
             " elements share one"
         )
-    first, *_ = _orders(cells, seen)
+    first, *_ = _orders(cells, used)
     names = [exponents[j] for j in first]
     kept = [cell_in(ratio, names, size) for ratio in ratios]
     return replace(separating_weights(kept, halves, names), unseen=unseen)

@@ -53,12 +53,12 @@ def relations(left: Model, right: Model) -> tuple[Relation, ...]:
     for side, model in enumerate((left, right)):
         for k in range(len(pairs) // 2 + SPARE):
             point = residues(f"relations:{side}:{k}", len(model.parameters), modulus)
-            seen = [_value(terms, point, modulus) for terms in coefficients(model) if terms]
-            rows.append([seen[i] * seen[j] % modulus for i, j in pairs])
+            drawn = [_value(terms, point, modulus) for terms in coefficients(model) if terms]
+            rows.append([drawn[i] * drawn[j] % modulus for i, j in pairs])
     return tuple(
         relation
         for line in _kernel(rows, modulus)
-        if (relation := _lifted(line, pairs, modulus))
+        if (relation := _lift_relation(line, pairs, modulus))
         and all(_holds(relation, model) for model in (left, right))
     )
 
@@ -138,7 +138,9 @@ def _kernel(rows: list[list[int]], modulus: int) -> list[list[int]]:
     return the_rows
 
 
-def _lifted(line: Sequence[int], pairs: Sequence[tuple[int, int]], modulus: int) -> Relation | None:
+def _lift_relation(
+    line: Sequence[int], pairs: Sequence[tuple[int, int]], modulus: int
+) -> Relation | None:
     """Small fractions with these remainders."""
     the_pairs = []
     for pair, residue in zip(pairs, line, strict=True):

@@ -47,7 +47,8 @@ def _of_input(
 ) -> Iterator[RationalFunction]:
     """Yield the transfer functions from one input to all outputs."""
     dynamics = [
-        _cleared([*row, force[at]], expansion) for row, force in zip(space.a, space.b, strict=True)
+        _clear_denominators([*row, force[at]], expansion)
+        for row, force in zip(space.a, space.b, strict=True)
     ]
     rows = [[-entry for entry in row[:-1]] + [row[-1]] for row, _ in dynamics]
     for i, (_, common) in enumerate(dynamics):
@@ -56,7 +57,7 @@ def _of_input(
     zero = polynomial - polynomial
     above = minors(rows, {0: polynomial}, expansion.times)
     for sensor, through in zip(space.c, space.d, strict=True):
-        output, scale = _cleared([*sensor, through[at]], expansion)
+        output, scale = _clear_denominators([*sensor, through[at]], expansion)
         last = [[*(-entry for entry in output[:-1]), output[-1]]]
         whole = minors(last, above, expansion.times)
         yield expansion.ratio(
@@ -64,7 +65,9 @@ def _of_input(
         )
 
 
-def _cleared(entries: list[Tree], expansion: Expansion) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:
+def _clear_denominators(
+    entries: list[Tree], expansion: Expansion
+) -> tuple[list[fmpz_mpoly], fmpz_mpoly]:
     """A row of entries times their common denominator, and this denominator."""
     values = [expansion.value(entry) for entry in entries]
     common = reduce(expansion.common, (v.den for v in values), expansion.one)
@@ -111,5 +114,5 @@ def network_powers(ratios: Sequence[RationalFunction], network: Network) -> Powe
     """Powers of v in such functions of a network, without those that are zero; raises
     InputError.
     """
-    seen = [ratio for ratio in ratios if not ratio.num.is_zero()]
-    return powers_of(seen, network.halves, network.exponents, len(network.parameters))
+    present = [ratio for ratio in ratios if not ratio.num.is_zero()]
+    return powers_of(present, network.halves, network.exponents, len(network.parameters))

@@ -92,7 +92,7 @@ def has_no_equivalent(parted: CaseSearch, point: ParameterValues) -> bool:
 def _on(parted: CaseSearch, section: Section, point: ParameterValues) -> tuple[float, ...] | None:
     if any(value_at(g, point) <= 0 for g in section.where):
         return None
-    values = _valued(section.values, point)
+    values = _evaluate_values(section.values, point)
     if values is None or not _is_inside(parted, values):
         return None
     full = point | dict(zip(parted.search.ring.unknowns, values, strict=True))
@@ -103,7 +103,9 @@ def _is_inside(parted: CaseSearch, values: list[Fraction]) -> bool:
     return parted.search.ring.domain is not Domain.POSITIVE or min(values) > 0
 
 
-def _valued(values: tuple[RationalFunction, ...], point: ParameterValues) -> list[Fraction] | None:
+def _evaluate_values(
+    values: tuple[RationalFunction, ...], point: ParameterValues
+) -> list[Fraction] | None:
     below = [value_at(v.den, point) for v in values]
     return (
         [value_at(v.num, point) / d for v, d in zip(values, below, strict=True)]

@@ -69,7 +69,7 @@ def sections(search: Search, case: Case) -> tuple[list[Section], list[Case]]:
         elif at is None:
             left.append(this_case)
         else:
-            todo += _eliminated(search, this_case, at)
+            todo += _eliminate_unknown(search, this_case, at)
         if len(the_sections) + len(left) + len(todo) > SECTIONS:
             raise TooMuch(f"more than {SECTIONS} sections")
     if not the_sections and not left:
@@ -116,12 +116,12 @@ def _eliminable(ring: Orthant, case: Case) -> int | None:
     return min(pairs)[2] if pairs else None
 
 
-def _eliminated(search: Search, case: Case, at: int) -> Iterator[Case]:
+def _eliminate_unknown(search: Search, case: Case, at: int) -> Iterator[Case]:
     """The cases without this unknown that have the same solutions together."""
     ring = search.ring
     rest = [g for g in case.positive if not g.degrees()[at]]
     for linear, others in _signs(ring, [g for g in case.positive if g.degrees()[at]], at):
-        split = [_bound(ring, f, at) for i, f in enumerate(linear) if f not in linear[:i]]
+        split = [_bound_of(ring, f, at) for i, f in enumerate(linear) if f not in linear[:i]]
         unseen = [a for a, _, sign in split if not sign]
         search.generic += [a for a in unseen if not ring.occurring([a])]
         for signs in product((1, -1), repeat=len(unseen)):
@@ -131,8 +131,8 @@ def _eliminated(search: Search, case: Case, at: int) -> Iterator[Case]:
             lower = [(ring.number(1), ring.number(0)), *((a, b) for a, b, s in bounds if s > 0)]
             upper = [(-a, -b) for a, b, s in bounds if s < 0]
             nonzero = (*case.nonzero, *unknown_factors(ring, (a for a, _, _ in bounds)))
-            asked = Case((), (*rest, *others, *polynomials), case.solved, nonzero)
-            yield from _between(ring, asked, at, lower, upper)
+            reduced = Case((), (*rest, *others, *polynomials), case.solved, nonzero)
+            yield from _between(ring, reduced, at, lower, upper)
 
 
 def _signs(
@@ -160,7 +160,7 @@ def _way(
     return [s * f for s, f in zip(signs, inside, strict=True)], -rest if negative else rest
 
 
-def _bound(ring: Orthant, linear: fmpz_mpoly, at: int) -> tuple[fmpz_mpoly, fmpz_mpoly, int]:
+def _bound_of(ring: Orthant, linear: fmpz_mpoly, at: int) -> tuple[fmpz_mpoly, fmpz_mpoly, int]:
     """(a, b, sign of a) of a x - b > 0."""
     rest, factor = ring.coefficients(linear, at)
     return factor, -rest, ring.sign(factor)
@@ -177,8 +177,8 @@ def _between(
             gap = [_difference(high, low)] if high else []
             positive, failing = inequalities(ring, [*case.positive, *above, *below, *gap])
             if failing is None:
-                asked = replace(case, positive=positive)
-                yield choose(ring, asked, at, partial(_inside, ring, low, high))
+                between = replace(case, positive=positive)
+                yield choose(ring, between, at, partial(_inside, ring, low, high))
 
 
 def _difference(greater: Bound, smaller: Bound) -> fmpz_mpoly:

@@ -54,12 +54,12 @@ def is_empty(start: Box, axes: int) -> bool:
     """Return True if no point of the closed box solves all equations with all inequalities >= 0;
     False also where that is not found.
     """
-    todo, seen = [start], 0
+    todo, n_boxes = [start], 0
     while todo:
-        box, seen = todo.pop(), seen + 1
+        box, n_boxes = todo.pop(), n_boxes + 1
         if any(map(sign_on, box.equations)) or any(sign_on(g) < 0 for g in box.positive):
             continue
-        if seen > BOXES or min(box.depth[:axes]) >= DEPTH:
+        if n_boxes > BOXES or min(box.depth[:axes]) >= DEPTH:
             return False
         todo += halves(box, axes)
     return True
@@ -89,9 +89,9 @@ def root(start: Box) -> tuple[Fraction, Fraction] | None:
 
     With one equation also one at whose ends the equation has opposite signs.
     """
-    todo, seen = [start], 0
-    while todo and seen < BOXES:
-        box, seen = todo.pop(0), seen + 1
+    todo, n_boxes = [start], 0
+    while todo and n_boxes < BOXES:
+        box, n_boxes = todo.pop(0), n_boxes + 1
         if any(map(sign_on, box.equations)) or any(sign_on(g) < 0 for g in box.positive):
             continue
         low, high = box.ends[0]
@@ -132,11 +132,11 @@ def halves(box: Box, axes: int) -> Iterator[Box]:
 
 def _half(grid: Grid, axis: int, upper: bool) -> Grid:
     lines = grid if axis else [list(line) for line in zip(*grid, strict=True)]
-    halved = [_shifted(line) if upper else _shifted(line[::-1])[::-1] for line in lines]
+    halved = [_shift_by_one(line) if upper else _shift_by_one(line[::-1])[::-1] for line in lines]
     return halved if axis else [list(line) for line in zip(*halved, strict=True)]
 
 
-def _shifted(coefficients: Sequence[int]) -> list[int]:
+def _shift_by_one(coefficients: Sequence[int]) -> list[int]:
     """Coefficients of f(1 + u)."""
     moved = list(coefficients)
     for i in range(len(moved)):

@@ -107,7 +107,7 @@ def find_solutions(model: AnyModel, settings: Settings) -> OverDomains:
     exchanges = tuple(exchange_of(images, model.parameters) for images in chosen)
     group = _Group(permutations, exchanges)
     tries = TRIES if len(model.parameters) <= CHEAP_UP_TO else 0
-    search = _solved(model, Domain.COMPLEX, tries)
+    search = _solve_in_orders(model, Domain.COMPLEX, tries)
     if search is None and group.order > 1:
         safety = safety_of_count(map_of(model), group.order, seed=settings.seed)
         if safety:
@@ -130,7 +130,7 @@ def _over(
     """
     searches = [search]
     if search is None and domain is Domain.POSITIVE:
-        searches.append(_solved(model, domain, tries))
+        searches.append(_solve_in_orders(model, domain, tries))
     for one in searches:
         found = _by_cases(model, domain, group, one) if one else None
         if found:
@@ -138,7 +138,7 @@ def _over(
     return _by_points(model, domain, group, settings)
 
 
-def _solved(model: AnyModel, domain: Domain, tries: int) -> Search | None:
+def _solve_in_orders(model: AnyModel, domain: Domain, tries: int) -> Search | None:
     """The first search all of whose cases are vectors of fractions, or of roots of one equation in
     one unknown, which no other order of the unknowns turns into fractions.
     """
@@ -168,10 +168,10 @@ def _by_cases(model: AnyModel, domain: Domain, group: _Group, search: Search) ->
     except TooMuch:
         return None
     sampled = sorted({sum(row) for row in numbers})
-    seen = [b for at, b in enumerate(branches) if b.least or any(row[at] for row in numbers)]
+    used = [b for at, b in enumerate(branches) if b.least or any(row[at] for row in numbers)]
     least = max(sum(b.least for b in branches), group.order)
     most = sum(b.most for b in branches)
-    levels = _levels(ring, model, group, branches, seen)
+    levels = _levels(ring, model, group, branches, used)
     found = _solutions(domain, levels, least, most, group)
     is_open = least < most
     return replace(
@@ -208,18 +208,18 @@ def _branches(ring: Orthant, model: AnyModel, cases: Sequence[Case]) -> list[_Br
             vector = plain_vector(ring, case)
         if vector is None or any(are_same(vector, b.vector) for b in branches):
             continue
-        asked = _asked(ring, case)
-        if asked is None:
+        conditions = _positive_products(ring, case)
+        if conditions is None:
             continue
-        least, most = _bounds(ring, vector, case, asked)
+        least, most = _bounds(ring, vector, case, conditions)
         if any(b.vector.at not in (-1, vector.at) for b in branches):
             least = 0  # roots of different unknowns may be the same vectors
         if most:
-            branches.append(_Branch(vector, case, asked, least, most))
+            branches.append(_Branch(vector, case, conditions, least, most))
     return branches
 
 
-def _asked(ring: Orthant, case: Case) -> tuple[Factors, ...] | None:
+def _positive_products(ring: Orthant, case: Case) -> tuple[Factors, ...] | None:
     """The products that have to be positive for the values of a case to be; None where they never
     are.
     """
@@ -416,12 +416,12 @@ def _of_exponents(model: AnyModel, settings: Settings) -> OverDomains:
     return tuple(_solutions(domain, levels, group.order, None, group) for domain in Domain)
 
 
-def _encoded(answer: OverDomains) -> str:
+def _encode(answer: OverDomains) -> str:
     return json.dumps([s.to_dict() for s in answer], separators=(",", ":"))
 
 
-def _decoded(text: str) -> OverDomains:
+def _decode(text: str) -> OverDomains:
     return tuple(map(Solutions.from_dict, json.loads(text)))
 
 
-SOLUTIONS = Question("solutions over each domain", find_solutions, _encoded, _decoded)
+SOLUTIONS = Question("solutions over each domain", find_solutions, _encode, _decode)

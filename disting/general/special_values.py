@@ -131,10 +131,10 @@ class SpecialValues:
         if not self.is_known:
             return ""
         inner, outer = (left, right) if self.left_in_right else (right, left)
-        said = f"For all positive values of {inner}, {outer} can give the same (proven)"
+        sentence = f"For all positive values of {inner}, {outer} can give the same (proven)"
         if None in (self.left_in_right, self.right_in_left):
-            return f"{said}; the converse is not known."
-        return f"{said}, but not the other way round."
+            return f"{sentence}; the converse is not known."
+        return f"{sentence}, but not the other way round."
 
     def sentence(self, left: str, right: str) -> str:
         """The same, and where the one that gives more has fewer poles."""

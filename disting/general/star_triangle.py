@@ -38,13 +38,13 @@ class Exchange:
 
     def back(self, field: Arithmetic, values: Mapping[str, Any]) -> dict[str, Any]:
         """All values before, of those after the exchange."""
-        return self._exchanged(field, values, not self.was_star)
+        return self._exchange_values(field, values, not self.was_star)
 
     def forth(self, field: Arithmetic, values: Mapping[str, Any]) -> dict[str, Any]:
         """All values after, of those before the exchange."""
-        return self._exchanged(field, values, self.was_star)
+        return self._exchange_values(field, values, self.was_star)
 
-    def _exchanged(
+    def _exchange_values(
         self, field: Arithmetic, values: Mapping[str, Any], is_star: bool
     ) -> dict[str, Any]:
         """Of the dual pair, 1/p of triangle and star, the formulas are the same."""
@@ -67,7 +67,7 @@ def without_bridges(network: Network) -> tuple[Network, tuple[Exchange, ...]]:
     >>> made.names, made.was_star, [e.nodes for e in plain.elements[2:]]
     (('R1', 'R2', 'R3'), False, [(4, 0), (4, 3), (4, 2)])
     """
-    best = min(_exchanged(network), key=lambda made: _edges_left(made[0]), default=None)
+    best = min(_exchange_parts(network), key=lambda made: _edges_left(made[0]), default=None)
     if best is None or _edges_left(best[0]) >= _edges_left(network):
         return network, ()
     plain, more = without_bridges(best[0])
@@ -79,7 +79,7 @@ def _edges_left(network: Network) -> int:
     return len(join([(e.nodes, 1) for e in network.elements], held, sum, sum))
 
 
-def _exchanged(network: Network) -> Iterator[tuple[Network, Exchange]]:
+def _exchange_parts(network: Network) -> Iterator[tuple[Network, Exchange]]:
     held = {0, *(i for p in network.ports for i in (p.plus, p.minus))}
     at = defaultdict[int, list[Element]](list)
     for e in network.elements:

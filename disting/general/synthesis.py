@@ -69,15 +69,15 @@ def leaf(element: Element) -> Tree:
 
 def series(trees: Iterable[Tree]) -> Tree:
     """Branches one after the other."""
-    return _joined("S", trees)
+    return _join_trees("S", trees)
 
 
 def parallel(trees: Iterable[Tree]) -> Tree:
     """Branches side by side."""
-    return _joined("P", trees)
+    return _join_trees("P", trees)
 
 
-def _joined(form: str, trees: Iterable[Tree]) -> Tree:
+def _join_trees(form: str, trees: Iterable[Tree]) -> Tree:
     flat = tuple(t for tree in trees for t in (tree.inside if tree.form == form else (tree,)))
     if len(flat) == 1:
         return flat[0]
@@ -114,8 +114,8 @@ def synthesize(
         return
     part, other = kinds if view == "S" else kinds[::-1]
     shares = [_share(t.part, view, part, other) for t in tree.inside]
-    _chosen(field, tree.inside, shares)
-    for parts in _parted(field, tree.inside, shares, top, bottom):
+    _note_choice(field, tree.inside, shares)
+    for parts in _part_functions(field, tree.inside, shares, top, bottom):
         pairs = [
             list(synthesize(field, t, *f, kinds, view))
             for t, f in zip(tree.inside, parts, strict=True)
@@ -131,7 +131,7 @@ def _share(part: Part, view: str, low: Power | None, high: Power | None) -> Shar
     return Share(count, low in part.single, high in part.single)
 
 
-def _chosen(field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share]) -> None:
+def _note_choice(field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share]) -> None:
     """Note which branches share a part of which only the sum is determined."""
     for has in ([s.constant for s in shares], [s.pole for s in shares]):
         sharing = [e.value for t, h in zip(trees, has, strict=True) if h for e in t.elements]
@@ -153,7 +153,7 @@ def _value(field: Arithmetic, element: Element, view: str, top: Poly, bottom: Po
     return {element.value: field.short(field.one / constant if is_inverse else constant)}
 
 
-def _parted(
+def _part_functions(
     field: Arithmetic, trees: Sequence[Tree], shares: Sequence[Share], top: Poly, bottom: Poly
 ) -> Iterator[list[tuple[Poly, Poly]]]:
     """Yield the functions of all branches, for every way to share the terms."""

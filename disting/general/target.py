@@ -48,12 +48,12 @@ def rational_values(
     missing = [name for name in model.parameters if name not in values]
     foreign = [str(name) for name in values if name not in model.parameters]
     if missing or foreign:
-        said = [
+        texts = [
             f"{what} {enumeration(which)}"
             for what, which in (("no value for", missing), ("no parameter", foreign))
             if which
         ]
-        raise InputError(f"{model.name}: {'; '.join(said)}")
+        raise InputError(f"{model.name}: {'; '.join(texts)}")
     return tuple((name, _number(name, values[name])) for name in model.parameters)
 
 
@@ -107,7 +107,7 @@ def _rows(goal: Target, other: Model) -> Iterator[Sparse]:
     coefficients = (*other.numerator_terms, *other.denominator_terms)
     rows, rank = _conditions(goal, len(other.numerator_terms), len(other.denominator_terms)).rref()
     table = [[rows[i, j] for j in range(len(coefficients))] for i in range(rank)]
-    yield from (combined for row in table if (combined := _combined(row, coefficients)))
+    yield from (combined for row in table if (combined := _combine(row, coefficients)))
 
 
 def fraction(number: fmpq) -> Fraction:
@@ -159,7 +159,7 @@ def _conditions(goal: Target, above: int, below: int) -> fmpq_mat:
     return fmpq_mat(table)
 
 
-def _combined(row: Sequence[fmpq], coefficients: Sequence[Terms]) -> Sparse:
+def _combine(row: Sequence[fmpq], coefficients: Sequence[Terms]) -> Sparse:
     """A combination of coefficients, cleared of denominators."""
     parts = [fraction(factor) for factor in row]
     total: dict[tuple[int, ...], Fraction] = {}

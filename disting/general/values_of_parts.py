@@ -84,7 +84,7 @@ def _of_graphs(field: Arithmetic, model: AnyModel, other: AnyModel) -> Iterator[
     """Of networks without their gears, in the units that these make; ratios of the other network
     that are not known are chosen: 1.
     """
-    (own_network, ratios), (other_network, chosen) = _placed(model), _placed(other)
+    (own_network, ratios), (other_network, chosen) = _place_network(model), _place_network(other)
     known_values = {e.value: field[e.value] for e in own_network.elements}
     for name, unit in _units(field, model.network, [field[n] for n in ratios]).items():
         known_values[name] = field[name] * unit
@@ -110,7 +110,7 @@ def _units(field: Arithmetic, network: Network | None, ratios: Sequence[Any]) ->
     return unit_of
 
 
-def _placed(model: AnyModel) -> tuple[Network, list[str]]:
+def _place_network(model: AnyModel) -> tuple[Network, list[str]]:
     """Network without gears as it is measured, and the unknown ratios."""
     plain = model.network and without_gears(model.network)
     if model.network is None or plain is None or plain.is_directed:
@@ -126,7 +126,7 @@ def _of_one_port(
     full_set = set_of(model)
     if full_set is None or full_set != set_of(other) or not isinstance(model, Model):
         return None
-    plain, exchanges = without_bridges(_placed(other)[0])
+    plain, exchanges = without_bridges(_place_network(other)[0])
     edges = _edges(plain)
     if len(edges) != 1:
         return None
@@ -196,20 +196,20 @@ def _matches(
     """
     import networkx  # imported late: it takes longer than most of what is asked
 
-    wanted = _drawn(trees, (*network.inputs, *network.outputs))
+    wanted = _draw_edges(trees, (*network.inputs, *network.outputs))
     readings = [(*other.inputs, *other.outputs)]
     if len(other.inputs) == len(other.outputs) == 1:
         readings.append((*other.outputs, *other.inputs))
     readings += [tuple(Port(p.minus, p.plus) for p in ports) for ports in readings]
     for ports in readings:
         matcher = networkx.algorithms.isomorphism.GraphMatcher(
-            wanted, _drawn(two, ports), dict.__eq__, dict.__eq__
+            wanted, _draw_edges(two, ports), dict.__eq__, dict.__eq__
         )
         for nodes in matcher.isomorphisms_iter():
             yield {ends: frozenset(nodes[i] for i in ends) for ends in trees}
 
 
-def _drawn(edges: Edges, ports: Sequence[Port]) -> Any:
+def _draw_edges(edges: Edges, ports: Sequence[Port]) -> Any:
     import networkx
 
     graph: Any = networkx.Graph()
@@ -227,15 +227,15 @@ def _of_part(field: Arithmetic, entry: FieldValues, tree: Tree, other: Tree) -> 
     if len(tree.part.kinds) <= TWO:
         low, *more = sorted(tree.part.kinds)
         kinds = low, more[0] if more else None
-        return list(synthesize(field, other, *_composed(field, entry, tree, low), kinds))
-    pairs = _paired(tree, other)
+        return list(synthesize(field, other, *_compose_branches(field, entry, tree, low), kinds))
+    pairs = _pair_branches(tree, other)
     the_pairs = [_of_part(field, entry, a, b) for a, b in pairs]
     return [
         {n: x for values in chosen for n, x in values.items()} for chosen in product(*the_pairs)
     ]
 
 
-def _paired(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
+def _pair_branches(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
     """Branches with the same sets."""
     left, pairs = list(other.inside), list[tuple[Tree, Tree]]()
     for branch in tree.inside if tree.form == other.form else ():
@@ -249,14 +249,16 @@ def _paired(tree: Tree, other: Tree) -> list[tuple[Tree, Tree]]:
     return pairs
 
 
-def _composed(field: Arithmetic, entry: FieldValues, tree: Tree, low: Power) -> tuple[Poly, Poly]:
+def _compose_branches(
+    field: Arithmetic, entry: FieldValues, tree: Tree, low: Power
+) -> tuple[Poly, Poly]:
     """F(x) of branches of two kinds, of which one has the power `low`."""
     zero, unit = field.zero, field.one
     if tree.element is not None:
         value = entry[tree.element.value]
         value = value if tree.element.kind.divides else unit / value
         return (value,), ((unit,) if tree.element.power == low else (zero, unit))
-    functions = [_composed(field, entry, t, low) for t in tree.inside]
+    functions = [_compose_branches(field, entry, t, low) for t in tree.inside]
     if tree.form == "S":
         return reduce(partial(_sum, field), functions)
     return _inverse(*reduce(partial(_sum, field), (_inverse(*f) for f in functions)))

@@ -119,10 +119,10 @@ def way(model: AnyModel, other: AnyModel, domain: Domain, effort: Effort = THORO
     for count, order in enumerate(islice(orders(ring.unknowns), effort.orders)):
         ring.begin()
         try:
-            parted = _parted(ring, model, other, order)
+            parted = _split_cases(ring, model, other, order)
         except TooMuch:
             continue
-        best = sorted([*best, parted], key=_left)[:1]
+        best = sorted([*best, parted], key=_count_left)[:1]
         if not best[0].others or (count >= FEW and _has_single_roots(best[0])):
             break
     if not best:
@@ -166,14 +166,16 @@ def _has_single_roots(parted: CaseSearch) -> bool:
     )
 
 
-def _left(parted: CaseSearch) -> tuple[int, int]:
+def _count_left(parted: CaseSearch) -> tuple[int, int]:
     ring = parted.search.ring
     return len(parted.others), sum(
         len(ring.occurring((*c.equations, *c.positive))) for c in parted.others
     )
 
 
-def _parted(ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]) -> CaseSearch:
+def _split_cases(
+    ring: Orthant, model: AnyModel, other: AnyModel, order: tuple[int, ...]
+) -> CaseSearch:
     search = search_cases(ring, model, other, order)
     the_sections, others = list[Section](), list[Case]()
     for case in search.cases:
@@ -194,13 +196,13 @@ def _covering(parted: CaseSearch) -> tuple[Section, ...]:
     """
     ring = parted.search.ring
     ring.begin()
-    asked = [
+    conditions = [
         parted.lead,
         *(ring.generators[i] for i in ring.unknowns if ring.domain is Domain.POSITIVE),
     ]
     try:
         every = (*parted.sections, *_by_choice(parted))
-        good = [s for s in every if not any(sign_on(ring, g, s).is_zero() for g in asked)]
+        good = [s for s in every if not any(sign_on(ring, g, s).is_zero() for g in conditions)]
         return next(((s,) for s in good if not s.where), tuple(good)) if cover(ring, good) else ()
     except TooMuch:
         return ()

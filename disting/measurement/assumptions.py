@@ -94,11 +94,11 @@ def _of_columns(used: Sequence[ReadColumn]) -> Iterator[Assumption]:
 
 
 def _of_units(used: Sequence[ReadColumn]) -> Iterator[Assumption]:
-    seen = set[Role]()
+    roles = set[Role]()
     for column in used:
-        if not column.unit_why.is_assumed or column.role in seen:
+        if not column.unit_why.is_assumed or column.role in roles:
             continue
-        seen.add(column.role)
+        roles.add(column.role)
         by = ", by its numbers" if column.unit_why is Why.BY_NUMBERS else ""
         if column.role is Role.CLOCK:
             yield Assumption(f"time in {column.unit}", "--read sampling_rate=HZ")

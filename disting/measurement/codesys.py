@@ -163,5 +163,5 @@ def _cycles(times: Real, name: str, origin: str) -> tuple[Real, float]:
 def _unit(flags: str) -> str:
     """The unit of the times, from `Flags`; a word that is not a unit where it is missing."""
     number = int(flags) if flags.isdecimal() else 0
-    told = [unit for bit, unit in UNITS.items() if number & bit]
-    return told[0] if len(told) == 1 else "unit not in Flags"
+    units = [unit for bit, unit in UNITS.items() if number & bit]
+    return units[0] if len(units) == 1 else "unit not in Flags"

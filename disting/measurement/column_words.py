@@ -160,7 +160,7 @@ def _meaning(header: str, name: str, stated: str | None, role: Role) -> Column:
     if stated is None:
         inside = INSIDE.findall(header.replace("_per_", "/"))
         hertz = [text for text in inside if text.lower().endswith("hz")]
-        units = [text for text in inside if _known(role, text) is not None]
+        units = [text for text in inside if _unit_for(role, text) is not None]
         if role in (Role.REAL, Role.IMAGINARY, Role.GAIN):
             # rad is none of a gain
             units = [text for text in units if known_unit(text, LEVELS) or in_ohm(text)]
@@ -189,9 +189,9 @@ def split_unit(header: str) -> tuple[str, str | None]:
         return text[:at].strip(), text[at + 1 : -1].strip()
     if _is_unit(text):
         return "", text
-    said = SAID_IN.match(text)
-    if said:
-        return said[1], said[2]
+    match = SAID_IN.match(text)
+    if match:
+        return match[1], match[2]
     for mark in (",", " ", "/"):
         for at in (i for i, c in enumerate(text) if c == mark):
             if _is_unit(text[at + 1 :].strip()):
@@ -283,7 +283,7 @@ def _role_of_unit(text: str) -> Role:
     return next((role for word, role in SHORT.items() if word in words), Role.OTHER)
 
 
-def _known(role: Role, text: str) -> str | None:
+def _unit_for(role: Role, text: str) -> str | None:
     """The name of a unit for a role; None where it is none for it."""
     if role is Role.FREQUENCY:
         if re.fullmatch(r"rad_?(?:per_?)?s|rad\s+s", text):
@@ -301,7 +301,7 @@ def _with_unit(role: Role, stated: str, name: str) -> Column:
             return Column(Role.OTHER)  # F [N], w [m]
         if known_unit(stated, FREQUENCIES) == "rad/s" and "rad" not in stated.lower():
             return Column(role, "rad/s" if CIRCULAR & set(_words(name)) else "Hz")  # in 1/s
-    unit_text = _known(role, stated)
+    unit_text = _unit_for(role, stated)
     if unit_text is None:
         return replace(Column(role), unknown=stated)
     unit = gain(unit_text) if role in (Role.GAIN, Role.REAL, Role.IMAGINARY) else None

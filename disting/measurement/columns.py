@@ -61,7 +61,7 @@ class Group:
 def columns_of(table: Table, asked: Sequence[str] | None, notes: list[str]) -> list[Column]:
     """Role and unit of every column: by the words that the caller gives, else by the headers."""
     if asked is not None:
-        return [replace(column, why=Why.OPTION) for column in _given(table, asked)]
+        return [replace(column, why=Why.OPTION) for column in _find_columns(table, asked)]
     if any(table.headers):
         return [meaning(header) for header in table.headers]
     if len(table.headers) != 3:
@@ -162,11 +162,11 @@ def misread(table: Table, columns: Sequence[Column], why: str) -> InputError:
     remedy = f"disting fit {shlex.quote(table.origin)} {command}" if guessed else f"as {command}"
     return InputError(
         f"{why}; say what the columns are: {remedy}; headers: {table.listed()}",
-        "\n".join(_described(table, columns)),
+        "\n".join(_describe_columns(table, columns)),
     )
 
 
-def _described(table: Table, columns: Sequence[Column]) -> Iterator[str]:
+def _describe_columns(table: Table, columns: Sequence[Column]) -> Iterator[str]:
     yield "its first rows, and its columns as they are understood:"
     for i, (header, column) in enumerate(zip(table.headers[:MOST], columns, strict=False)):
         name = header if len(header) <= WIDEST else f"{header[: WIDEST - 1]}…"
@@ -217,7 +217,7 @@ def _word(column: Column) -> str:
     return next((word for word, meant in WORDS.items() if meant.role is column.role), "-")
 
 
-def _given(table: Table, asked: Sequence[str]) -> list[Column]:
+def _find_columns(table: Table, asked: Sequence[str]) -> list[Column]:
     if not isinstance(asked, Sequence):
         raise InputError(f"columns are named by words, not by {short(asked)}")
     words = [asked] if isinstance(asked, str) else list(asked)

@@ -116,7 +116,7 @@ def distortion(
         even=between % 2 == 0,
         told_apart=bool(np.all(excited % 2)),
     )
-    return the_distortion, _said(the_distortion, np.abs(response))
+    return the_distortion, _medians_in_words(the_distortion, np.abs(response))
 
 
 def shares(the_distortion: Distortion, size: Real) -> dict[str, float]:
@@ -131,7 +131,7 @@ def shares(the_distortion: Distortion, size: Real) -> dict[str, float]:
     return medians if max(medians.values(), default=0.0) >= ROUNDING else {}
 
 
-def _said(the_distortion: Distortion, size: Real) -> str:
+def _medians_in_words(the_distortion: Distortion, size: Real) -> str:
     """Medians in percent of the response; "" where there is nothing but rounding."""
     medians = shares(the_distortion, size)
     if not medians:
@@ -161,7 +161,7 @@ def from_unexcited(
     size = np.abs(response)
     if not _is_larger(total, noise, np.interp(at, omega, size), (1.0, periods - 1.0)):
         return None
-    return _averaged(total**2 - noise**2, at, omega, size)
+    return _average_power(total**2 - noise**2, at, omega, size)
 
 
 def is_even_beyond_noise(between: Distortion, omega: Real, response: Complex, periods: int) -> bool:
@@ -185,7 +185,7 @@ def from_realisations(
     size = np.abs(response)
     if not _is_larger(total, noise, size, (freedom[0] / 2, freedom[1] / 2)):
         return None
-    return _averaged(total**2 - noise**2, omega, omega, size)
+    return _average_power(total**2 - noise**2, omega, omega, size)
 
 
 def _is_larger(total: Real, noise: Real, size: Real, repeats: tuple[float, float]) -> bool:
@@ -199,7 +199,7 @@ def _is_larger(total: Real, noise: Real, size: Real, repeats: tuple[float, float
     return ratio > float(f_distribution.isf(SURE, *(2 * len(total) * n for n in repeats)))
 
 
-def _averaged(power: Real, at: Real, omega: Real, size: Real) -> Real:
+def _average_power(power: Real, at: Real, omega: Real, size: Real) -> Real:
     """sigma_s at lines `omega` of a response of this `size` from powers of the lines `at`: as
     they are or as shares of the response, whichever describes them better.
     """

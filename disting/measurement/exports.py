@@ -63,11 +63,13 @@ def _scope(lines: list[str], origin: str) -> Table | None:
 def _left_out(rows: dict[str, list[str]], kept: list[int]) -> str:
     """The channels of other sample times."""
     rates = rows[RATE]
-    others = [f"{_header(rows, j)} (each {r} ms)" for j, r in _sampled(rates) if j not in kept]
+    others = [
+        f"{_header(rows, j)} (each {r} ms)" for j, r in _read_sampling(rates) if j not in kept
+    ]
     return f"left out: {enumeration(others)}, not each {rates[kept[0]]} ms" if others else ""
 
 
-def _sampled(rates: list[str]) -> list[tuple[int, str]]:
+def _read_sampling(rates: list[str]) -> list[tuple[int, str]]:
     """Columns of channels and their sample times [ms]."""
     return [(j, rate) for j, rate in enumerate(rates) if re.fullmatch(r"\d+([.,]\d+)?", rate)]
 
@@ -76,7 +78,7 @@ def _columns(rates: list[str], origin: str) -> list[int]:
     """The column of a time and those of the channels of the sample time that most have, of two the
     first one.
     """
-    channels = dict(_sampled(rates))
+    channels = dict(_read_sampling(rates))
     kept: list[int] = []
     for wanted, _ in Counter(channels.values()).most_common(1):
         kept = [j for j, rate in channels.items() if rate == wanted]
@@ -96,8 +98,8 @@ def _labview(lines: list[str], origin: str) -> Table:
     ends = [i for i, line in enumerate(lines) if line.startswith(END)]
     if len(ends) != 2 or len(lines) < ends[1] + 2:
         raise InputError(f"{origin}: an LVM file of {max(len(ends) - 1, 0)} records; export one")
-    said = {key: rest for key, _, rest in (line.partition("\t") for line in lines[: ends[0]])}
-    mark = "," if said.get("Separator", "").strip() == "Comma" else "\t"
+    fields = {key: rest for key, _, rest in (line.partition("\t") for line in lines[: ends[0]])}
+    mark = "," if fields.get("Separator", "").strip() == "Comma" else "\t"
     rows = {row[0]: row for row in (line.split(mark) for line in lines[ends[0] + 1 : ends[1]])}
     names = lines[ends[1] + 1].split(mark)
     columns = [j for j, name in enumerate(names) if name.strip() not in ("", X, "Comment")]

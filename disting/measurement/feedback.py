@@ -138,7 +138,7 @@ def _is_closed(u: Complex, z: Complex) -> bool:
     pairs = len(u) - 1
     width = -(-PAIRS // pairs)
     power, other, crossed = _products(u, z)
-    uu, zz, zu = _grouped(power, width), _grouped(other, width), _grouped(crossed, width)
+    uu, zz, zu = _sum_groups(power, width), _sum_groups(other, width), _sum_groups(crossed, width)
     good = (uu > 0) & (zz > 0)
     uu, zz, zu = uu[good], zz[good], zu[good]
     count = len(uu)
@@ -158,7 +158,7 @@ def _products(u: Complex, z: Complex) -> tuple[Real, Real, Complex]:
     return uu, zz, np.asarray(np.sum(z * u.conj(), axis=0))
 
 
-def _grouped(values: NDArray[Any], width: int) -> NDArray[Any]:
+def _sum_groups(values: NDArray[Any], width: int) -> NDArray[Any]:
     """Sums over neighbouring lines; the last lines that fill no group are left out."""
     count = len(values) // width
     return np.asarray(values[: count * width].reshape(count, width).sum(axis=1))

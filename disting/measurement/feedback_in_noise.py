@@ -109,10 +109,10 @@ def loop_in_noise(u: Real, y: Real, order: int) -> NoiseLoop | None:
     own, other = _noise(u, y)
     if not (np.ptp(own) > ROUNDING * np.ptp(u) and np.ptp(other) > 0):
         return None
-    values, other = _whitened(own), _whitened(other)
+    values, other = _whiten(own), _whiten(other)
     if not (np.isfinite(values).all() and np.isfinite(other).all()):
         return None
-    rest = _sums(_unexplained(values, other))
+    rest = _sums(_unexplained_correlation(values, other))
     mean, error = rest.mean(axis=0), rest.std(axis=0, ddof=1) / np.sqrt(BLOCKS)
     # a correlation of n samples has at least the error of white noise
     error = np.maximum(error, 1 / np.sqrt(len(values)))
@@ -148,7 +148,7 @@ def _noise(u: Real, y: Real) -> tuple[Real, Real]:
     return own, other
 
 
-def _whitened(x: Real) -> Real:
+def _whiten(x: Real) -> Real:
     """Return what an autoregressive model does not predict, shape (n - ORDER_OF_WHITENING,)."""
     from scipy.linalg import solve_toeplitz
     from scipy.signal import lfilter
@@ -160,7 +160,7 @@ def _whitened(x: Real) -> Real:
     return np.asarray(lfilter(np.concatenate([[1.0], -model]), 1.0, x)[order:])
 
 
-def _unexplained(values: Real, other: Real) -> Real:
+def _unexplained_correlation(values: Real, other: Real) -> Real:
     """Return the correlation of `values` with `other` 1 to `LAGS` samples before, less that of an
     open loop, of each block, shape (BLOCKS, LAGS).
     """

@@ -113,12 +113,12 @@ def _from_matlab(file: Source, options: Options) -> FrequencyResponse:
     """
     from disting.measurement.matlab import chosen_response, from_object
 
-    asked, index = split_index(options.get("response"))
+    wanted, index = split_index(options.get("response"))
     arrays, stored = _variables(file), _responses(file)
-    of_object = asked is not None and bool(matching(list(stored), asked))
-    of_variable = asked is not None and bool(matching(list(arrays), asked))
-    if of_object or (stored and (not of_variable if asked else not holds_response(arrays))):
-        name = chosen_response(stored, asked, file.name)
+    of_object = wanted is not None and bool(matching(list(stored), wanted))
+    of_variable = wanted is not None and bool(matching(list(arrays), wanted))
+    if of_object or (stored and (not of_variable if wanted else not holds_response(arrays))):
+        name = chosen_response(stored, wanted, file.name)
         rest = {key: value for key, value in options.items() if key != "response"} | (
             {"index": index} if index else {}
         )

@@ -53,8 +53,8 @@ def describe_nonlinearity(response: FrequencyResponse) -> str:
 
 def describe_jumps(jumps: float, noise: float) -> str:
     """Sentence on lines that jump by more than the periods scatter, medians as shares of |G|."""
-    seen = f"noise {_percent(noise)}, neighbouring lines jump by {_percent(jumps)}"
-    return held([seen], CAUSES)
+    evidence = f"noise {_percent(noise)}, neighbouring lines jump by {_percent(jumps)}"
+    return held([evidence], CAUSES)
 
 
 def held(seen: Sequence[str], causes: str) -> str:

@@ -36,7 +36,7 @@ def look_lines(seen: "Look", width: int = WIDTH) -> Iterator[str]:
     yield from column_table(seen, width)
     yield ""
     for name, text in fact_rows(seen):
-        yield from _folded(name, text, width)
+        yield from _fold_row(name, text, width)
 
 
 def short_lines(response: FrequencyResponse, shows: str = "") -> Iterator[str]:
@@ -71,10 +71,10 @@ def column_table(seen: "Look", width: int) -> Iterator[str]:
     shown = sorted([*used, *others[:MOST]], key=lambda column: column.number)
     widest = max(WIDEST - max(WIDTH - width, 0), NARROWEST)
     rows = [HEADS, *(_row(seen, column, widest) for column in shown)]
-    wide = list(_aligned(rows, width))
+    wide = list(_align_rows(rows, width))
     without = [tuple("" if i == NUMBERS else cell for i, cell in enumerate(row)) for row in rows]
     fits = max(map(len, wide)) <= width and len(wide) == len(rows)
-    yield from wide if fits else _aligned(without, width)
+    yield from wide if fits else _align_rows(without, width)
     if len(others) > MOST:
         yield f"and {len(others) - MOST} more that are not used"
 
@@ -91,7 +91,7 @@ def _row(seen: "Look", column: ReadColumn, widest: int) -> tuple[str, ...]:
     )
 
 
-def _aligned(rows: Sequence[Sequence[str]], width: int) -> Iterator[str]:
+def _align_rows(rows: Sequence[Sequence[str]], width: int) -> Iterator[str]:
     """Rows with columns of one width; empty columns are left out, the last one is folded."""
     kept = [i for i in range(len(rows[0])) if any(row[i] for row in rows[1:])]
     cells = [[row[i] for i in kept] for row in rows]
@@ -134,7 +134,7 @@ def fact_rows(seen: "Look") -> Iterator[tuple[str, str]]:
     yield from (("doubt", doubt) for doubt in seen.doubts)
 
 
-def _folded(name: str, text: str, width: int) -> Iterator[str]:
+def _fold_row(name: str, text: str, width: int) -> Iterator[str]:
     yield from wrap(
         f"{name}: {printable(text)}",
         width,

@@ -264,9 +264,9 @@ def look(
         refusals.append(IMPEDANCE)
         response = as_impedance(response)
     if response is not None:
-        response = _changed(response, changes, refusals)
-    seen = Look(file.name, columns, response, record, refusals=tuple(refusals))
-    return _with_statistics(seen, named, bool(repeat))
+        response = _apply_changes(response, changes, refusals)
+    looked = Look(file.name, columns, response, record, refusals=tuple(refusals))
+    return _with_statistics(looked, named, bool(repeat))
 
 
 def look_at(
@@ -281,12 +281,12 @@ def look_at(
     """
     refusals, response = list[str](), None
     try:
-        response = _changed(record.response(sensor), changes, refusals)
+        response = _apply_changes(record.response(sensor), changes, refusals)
     except InputError as reason:
         refusals.append(str(reason))
     file = record.origin or "record"
-    seen = Look(file, record.columns, response, record, refusals=tuple(refusals))
-    return _with_statistics(seen, {}, is_mean=False)
+    looked = Look(file, record.columns, response, record, refusals=tuple(refusals))
+    return _with_statistics(looked, {}, is_mean=False)
 
 
 def name_units(seen: Look, units: dict[str, str]) -> Look:
@@ -334,7 +334,7 @@ def _mean(
         return responses[0]
 
 
-def _changed(
+def _apply_changes(
     response: FrequencyResponse, changes: Sequence[Change], refusals: list[str]
 ) -> FrequencyResponse:
     """The response after all changes but those that are refused."""

@@ -72,7 +72,7 @@ def matrices(content: Bytes, order: str, start: int, take: Take) -> Iterator[Byt
     """
     for kind, body in elements(content[start:], order):
         if kind == COMPRESSED:
-            take("the objects", _said(zlib.decompressobj().decompress(body, HEAD), order))
+            take("the objects", _element_size(zlib.decompressobj().decompress(body, HEAD), order))
         if kind in (MATRIX, COMPRESSED):
             yield body if kind == MATRIX else _matrix(unpack(body, order))
 
@@ -81,10 +81,12 @@ def unpack(body: Bytes, order: str) -> bytes:
     """A compressed element, at most as many bytes as stated in its header."""
     packer = zlib.decompressobj()
     head = packer.decompress(body, HEAD)
-    return head + packer.decompress(packer.unconsumed_tail, max(_said(head, order) - len(head), 1))
+    return head + packer.decompress(
+        packer.unconsumed_tail, max(_element_size(head, order) - len(head), 1)
+    )
 
 
-def _said(element: bytes, order: str) -> int:
+def _element_size(element: bytes, order: str) -> int:
     """Size of an element with its header, as the header states."""
     return 8 + int(struct.unpack_from(order + "I", element, 4)[0])
 
@@ -115,7 +117,7 @@ def _variable(body: memoryview, compressed: bool, order: str) -> Variable:
     return Variable(
         name=name,
         kind=of & 0xFF,
-        size=max(numbers, _said(first, order) if compressed else len(body)),
+        size=max(numbers, _element_size(first, order) if compressed else len(body)),
         body=body,
         compressed=compressed,
         order=order,

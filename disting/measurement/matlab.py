@@ -275,7 +275,7 @@ def datasets(file: Source) -> list[str]:
     """Arrays that are in the file itself; links that lead out of it are not even looked at."""
     import h5py
 
-    with _opened(file) as inside:
+    with _open_file(file) as inside:
         own = [
             name
             for name in inside
@@ -291,7 +291,7 @@ def dataset(file: Source, name: str, take: Take) -> NDArray[Any]:
     Raises InputError for what is kept elsewhere, or is no array of numbers, and by `take`, which
     gets the size, before anything is unpacked.
     """
-    with _opened(file) as inside:
+    with _open_file(file) as inside:
         array = inside[name]
         if array.external or array.is_virtual:
             raise InputError(
@@ -310,7 +310,7 @@ def dataset(file: Source, name: str, take: Take) -> NDArray[Any]:
     return values.T
 
 
-def _opened(file: Source) -> Any:
+def _open_file(file: Source) -> Any:
     import h5py
 
     return h5py.File(io.BytesIO(file.content), "r")
@@ -373,7 +373,7 @@ def variables(file: Source) -> Arrays:
         return fields | whole
     if b"\0" not in content[:4]:  # version 4 begins with a small number
         raise InputError(f"{file.name} is no MATLAB file")
-    return {name: partial(_loaded, file, name) for name in _listed(file)}
+    return {name: partial(_load_array, file, name) for name in _list_names(file)}
 
 
 def responses(file: Source) -> dict[str, ResponseObject]:
@@ -389,11 +389,11 @@ def _whole(variable: mat5.Variable, file: Source, take: Take) -> NDArray[Any]:
     try:
         return variable.read(take)
     except InputError as error:
-        said = str(error)
-        raise InputError(said if file.name in said else f"{file.name}: {said}") from None
+        message = str(error)
+        raise InputError(message if file.name in message else f"{file.name}: {message}") from None
 
 
-def _listed(file: Source) -> set[str]:
+def _list_names(file: Source) -> set[str]:
     import scipy.io
 
     contents = _foreign(
@@ -403,7 +403,7 @@ def _listed(file: Source) -> set[str]:
     return {str(entry[0]) for entry in contents}
 
 
-def _loaded(file: Source, name: str) -> NDArray[Any]:
+def _load_array(file: Source, name: str) -> NDArray[Any]:
     import scipy.io
 
     load = partial(scipy.io.loadmat, io.BytesIO(file.content), variable_names=[name])

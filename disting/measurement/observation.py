@@ -167,11 +167,11 @@ def line_weights(window: Window, omega: Real, order: int) -> tuple[Complex, csr_
     """Complex angular frequencies omega_i - j sigma, shape (n,), and the weights, shape (n_f, n),
     by which responses of a sensor of `order` there make what lines at `omega` show.
     """
-    return _seen(window.duration, omega.tobytes(), order - window.order)
+    return _observe_lines(window.duration, omega.tobytes(), order - window.order)
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _seen(duration: float, lines: bytes, steps: int) -> tuple[Complex, csr_array]:
+def _observe_lines(duration: float, lines: bytes, steps: int) -> tuple[Complex, csr_array]:
     omega = np.frombuffer(lines)
     apart, reach = np.pi * 2 / (FINE * duration), REACH * FINE
     nearest = np.rint(omega / apart).astype(np.intp)

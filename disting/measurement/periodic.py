@@ -145,18 +145,18 @@ def estimate(
     length = detected_period(excitation) if period is None else _whole(period, "period", 2)
     detected = f"period of {length} samples ({length / rate:g} s) detected in the input"
     notes = [detected] if period is None else []
-    transient, said = _dropped(transient, y, length)
-    notes += [said] if said else []
+    transient, note = _drop_transient(transient, y, length)
+    notes += [note] if note else []
     start, whole = transient * length, y
     u, y, excitation = (_whole_periods(x, length, transient) for x in (u, y, excitation))
     before = float(whole[start - 1]) if start else None
     exciting = _spectra(excitation, length)
     spacing = rate / length
     if lines is None:
-        chosen = _detected(exciting, length)
+        chosen = _detect_lines(exciting, length)
         notes.append(f"{len(chosen)} excited lines detected in the input")
     else:
-        chosen = _given(lines, spacing, exciting.shape[1])
+        chosen = _check_lines(lines, spacing, exciting.shape[1])
     removed = list[str]()
     if detrend:
         u, y, before, removed = _without_trends(u, y, before, length, chosen, detrend)
@@ -165,8 +165,8 @@ def estimate(
     if detrend and changes is not None and _scatters_less(changes, outputs, inputs, chosen):
         outputs, removed = changes, [*removed, WANDERING]
     notes += removed
-    between, said = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
-    notes += [said] if said else []
+    between, note = distortion(inputs, outputs, chosen, 2 * np.pi * spacing)
+    notes += [note] if note else []
     if band is not None:
         chosen = chosen[(chosen * spacing >= band[0]) & (chosen * spacing <= band[1])]
     if len(inputs) == 1:
@@ -314,7 +314,7 @@ def _without_trends(
     return u - of_input.samples(len(u)), y - np.array(trend), before, notes
 
 
-def _dropped(transient: int | None, y: Real, period: int) -> tuple[int, str]:
+def _drop_transient(transient: int | None, y: Real, period: int) -> tuple[int, str]:
     """Number of periods to drop at the beginning, and a note where two periods decide it."""
     if transient is not None:
         return _whole(transient, "transient", 0), ""
@@ -343,7 +343,7 @@ def _spectra(x: Real, period: int) -> Complex:
     return np.asarray(np.fft.rfft(x.reshape(-1, period), axis=1))
 
 
-def _detected(exciting: Complex, length: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def _detect_lines(exciting: Complex, length: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Indices of the excited lines of the spectra of all periods; raises InputError for too few."""
     chosen = excited_lines(np.abs(exciting.mean(axis=0)))
     if len(chosen) < FEWEST:
@@ -355,7 +355,9 @@ def _detected(exciting: Complex, length: int) -> np.ndarray[tuple[int], np.dtype
     return chosen
 
 
-def _given(lines: Any, spacing: float, count: int) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def _check_lines(
+    lines: Any, spacing: float, count: int
+) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     wanted = real(lines, "lines") / spacing
     numbers = np.rint(wanted)
     if not np.all(np.abs(wanted - numbers) <= OFF_GRID) or not np.all(
@@ -380,7 +382,7 @@ def _mean(inputs: Complex, outputs: Complex, omega: Real, outliers: str) -> Freq
     with np.errstate(divide="ignore", invalid="ignore"):
         each = outputs / inputs
     names = [f"period {i}" for i in range(1, periods + 1)]
-    kept, said, doubts = leave_out(each, names, omega, outliers)
+    kept, notes, doubts = leave_out(each, names, omega, outliers)
     count = kept.sum(axis=0)
     mean = outputs.mean(axis=0, where=kept) / inputs.mean(axis=0, where=kept)
     deviation = np.std(each, axis=0, ddof=1, where=kept) / np.sqrt(count)
@@ -393,7 +395,7 @@ def _mean(inputs: Complex, outputs: Complex, omega: Real, outliers: str) -> Freq
         G=mean,
         deviation=deviation,
         coherence=coherence,
-        notes=tuple(said),
+        notes=tuple(notes),
         freedom=2.0 * (int(count.min(initial=periods)) - 1),
         drive=np.abs(inputs.mean(axis=0)),
         doubts=doubts,

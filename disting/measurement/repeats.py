@@ -70,8 +70,8 @@ def leave_out(
     if outliers not in CHOICES:
         raise InputError(f"--outliers is {' or '.join(CHOICES)}, not {short(outliers)}")
     the_values = find_outliers(values)
-    kept, said = np.ones_like(the_values), [_where(row, omega) for row in the_values]
-    named = [f"{name} at {at}" for name, at in zip(names, said, strict=True) if at]
+    kept, places = np.ones_like(the_values), [_where(row, omega) for row in the_values]
+    named = [f"{name} at {at}" for name, at in zip(names, places, strict=True) if at]
     if not named:
         return kept, (), ()
     if outliers == "drop":
@@ -145,12 +145,12 @@ def mean_of(repeats: Sequence[FrequencyResponse], *, outliers: str = "keep") -> 
     )
     mean = _with_distortion(mean, repeats, kept)
     relative = float(np.median(deviation * np.sqrt(count) / np.abs(mean.G)))
-    said = dict.fromkeys(note for response in repeats for note in response.notes)
+    own_notes = dict.fromkeys(note for response in repeats for note in response.notes)
     doubts = [*(doubt for response in repeats for doubt in response.doubts), *outlying]
     if len(set(repeats)) < n:
         doubts.append("some repeats are the same numbers: they scatter less than the machine does")
     return (
-        replace(mean, notes=tuple(said))
+        replace(mean, notes=tuple(own_notes))
         .noted(
             f"mean of {n} repeats, which scatter by {100 * relative:.2g} % (median of the lines)",
             *notes,

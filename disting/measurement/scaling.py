@@ -124,12 +124,12 @@ def in_si(
                 f"{short(text)} is no unit that is known here; known are such as {example}"
             )
     if output_unit is not None:
-        response = _moved(
+        response = _to_unit(
             response, output_unit, said=output or response.output.unit, asked=output is not None
         )
     if input_unit is None:
         return response
-    return _scaled(
+    return _scale_response(
         replace(response, input=response.input._replace(unit=input_unit[0])), 1 / input_unit[1]
     )
 
@@ -158,7 +158,9 @@ def with_constant(response: FrequencyResponse, constant: float) -> FrequencyResp
         response.output._replace(unit=base + SUFFIX[response.sensor.order]),
         response.input._replace(unit="N" if base == "m" else "Nm"),
     )
-    return _scaled(replace(response, output=units[0], input=units[1]), 1 / constant).noted(note)
+    return _scale_response(replace(response, output=units[0], input=units[1]), 1 / constant).noted(
+        note
+    )
 
 
 def scale(response: FrequencyResponse, factor: float) -> FrequencyResponse:
@@ -167,10 +169,12 @@ def scale(response: FrequencyResponse, factor: float) -> FrequencyResponse:
         raise InputError(
             f"a scale is a positive number, not {factor:g}; a reversed sensor is --sign=-"
         )
-    return _scaled(response, factor)
+    return _scale_response(response, factor)
 
 
-def _moved(response: FrequencyResponse, unit: Motion, said: str, asked: bool) -> FrequencyResponse:
+def _to_unit(
+    response: FrequencyResponse, unit: Motion, said: str, asked: bool
+) -> FrequencyResponse:
     assumed = ASSUMED_ACCELERATION in response.notes
     if assumed:
         response = replace(
@@ -184,10 +188,10 @@ def _moved(response: FrequencyResponse, unit: Motion, said: str, asked: bool) ->
         f"output taken from {said} to {unit.base}{SUFFIX[unit.order]}" if unit.factor != 1 else None
     )
     signal = response.output._replace(unit=unit.base + SUFFIX[response.sensor.order])
-    return _scaled(replace(response, output=signal), unit.factor).noted(note)
+    return _scale_response(replace(response, output=signal), unit.factor).noted(note)
 
 
-def _scaled(response: FrequencyResponse, factor: float) -> FrequencyResponse:
+def _scale_response(response: FrequencyResponse, factor: float) -> FrequencyResponse:
     if factor == 1:
         return response
     return replace(

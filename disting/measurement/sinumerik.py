@@ -31,8 +31,8 @@ def read_trace(text: str, origin: str) -> Table | None:
     try:
         frames = fromstring(text).findall(f".//{FRAMES}")
     except ParseError as error:
-        said = f"this trace is no whole XML ({error}); export it again"
-        raise InputError(f"{origin}: {said}") from None
+        message = f"this trace is no whole XML ({error}); export it again"
+        raise InputError(f"{origin}: {message}") from None
     if len(frames) != 1:
         raise InputError(f"{origin}: a trace of {len(frames)} frames; export one")
     return _table(frames[0], origin)
@@ -70,13 +70,13 @@ def _numbers(records: list[Element], key: str, origin: str) -> Iterator[float]:
     """Values of a signal; what a record leaves out is as before."""
     value = None
     for n, record in enumerate(records, 1):
-        said = record.get(key)
-        if said is not None:
+        text = record.get(key)
+        if text is not None:
             try:
-                value = float(said)
+                value = float(text)
             except ValueError:
                 where = f"{origin}, record {n}, {key}"
-                raise InputError(f"{where}: {short(said)} is no number") from None
-        if value is None or (key == TIME and said is None):
+                raise InputError(f"{where}: {short(text)} is no number") from None
+        if value is None or (key == TIME and text is None):
             raise InputError(f"{origin}: record {n} of this trace has no value of {key}")
         yield value

@@ -94,16 +94,16 @@ def frequency_response(
     notes, doubts = [TRANSPOSED] * table.transposed, list[str]()
     roles = columns_of(table, columns, notes)
     at = frequency_column(table, roles)
-    ours = _written(table.comments)
+    ours = _read_own_fields(table.comments)
     grid = _grid(table, at, roles[at], roles[at].unit if ours else frequency_unit, notes, doubts)
     the_groups = groups(table, roles)
     whole = column == "all" and "all" not in table.headers
     used = the_groups if whole else [choose(table, roles, the_groups, column)]
-    said = _units(table, roles, used[0], ours)
+    units = _units(table, roles, used[0], ours)
     impedance = _is_impedance(table, used[0], quantity, magnitude_unit, ours, notes)
     own = Sensor.POSITION if impedance else ours.get("sensor")
-    shown = quantity_of(table, own if impedance else quantity or own, said[0], notes)
-    said = (VOLT, AMPERE) if impedance and not ours else said
+    shown = quantity_of(table, own if impedance else quantity or own, units[0], notes)
+    units = (VOLT, AMPERE) if impedance and not ours else units
     reading = _Reading(table, roles, phase_unit, magnitude_unit, columns is None, notes, doubts)
     responses = [
         FrequencyResponse(
@@ -112,16 +112,16 @@ def frequency_response(
             reading.beside(group, Role.DEVIATION),
             reading.beside(group, Role.COHERENCE),
             sensor=shown,
-            input=_signal(ours, "input", Signal("", said[1])),
-            output=_signal(ours, "output", Signal(table.headers[group.first], said[0])),
+            input=_signal(ours, "input", Signal("", units[1])),
+            output=_signal(ours, "output", Signal(table.headers[group.first], units[0])),
             origin=f"{table.origin}, {table.named(group.first)}",
             is_impedance=impedance,
         )
         for group in used
     ]
     unit = taken_unit(grid, table.column(at), roles[at].unit)
-    asked = frequency_unit is not None and not ours
-    uses = reading.uses | {at: Use(Role.FREQUENCY, unit, _why_unit(roles[at], unit, asked))}
+    is_given = frequency_unit is not None and not ours
+    uses = reading.uses | {at: Use(Role.FREQUENCY, unit, _why_unit(roles[at], unit, is_given))}
     read = record_columns(table.headers, table.values, roles, uses)
     response = mean_of(responses, outliers=outliers).noted(*notes).doubted(*doubts)
     return response.read_as(sentence(read), read)
@@ -158,11 +158,11 @@ class _Reading:
                 self._scale(real) * self._ohms(real),
                 self._scale(imaginary) * self._ohms(imaginary),
             )
-            asked = Why.OPTION if self.magnitude_unit else Why.NOTHING
+            origin = Why.OPTION if self.magnitude_unit else Why.NOTHING
             for part, role in ((real, Role.REAL), (imaginary, Role.IMAGINARY)):
-                self.uses[part] = Use(role, self.magnitude_unit or "", asked)
+                self.uses[part] = Use(role, self.magnitude_unit or "", origin)
             return np.asarray(
-                self._signed(real) * scale[0] + 1j * self._signed(imaginary) * scale[1]
+                self._read_signed(real) * scale[0] + 1j * self._read_signed(imaginary) * scale[1]
             )
         at = columns[Role.PHASE]
         unit = self._phase_unit(at)
@@ -171,7 +171,7 @@ class _Reading:
         self.uses[columns[Role.GAIN]] = self._gain_use(columns[Role.GAIN], level)
         why = _why_unit(self.roles[at], unit, self.phase_unit is not None)
         self.uses[at] = Use(Role.PHASE, unit, why)
-        return np.asarray(size * np.exp(1j * PHASES[unit] * self._signed(at)))
+        return np.asarray(size * np.exp(1j * PHASES[unit] * self._read_signed(at)))
 
     def _gain_use(self, at: int, level: str) -> Use:
         """Use of a column of gains: as its header states, else at the level that was taken."""
@@ -184,7 +184,7 @@ class _Reading:
         is_said = LINEAR.search(self.table.headers[at].lower()) is not None
         return Use(Role.GAIN, level, Why.WORD if is_said else Why.ASSUMED)
 
-    def _signed(self, at: int) -> Real:
+    def _read_signed(self, at: int) -> Real:
         """The numbers of a column, reversed where its header has a minus before its name."""
         if not MINUS.match(self.table.headers[at]):
             return self.table.column(at)
@@ -196,7 +196,7 @@ class _Reading:
         if role not in group.columns:
             return None
         at = group.columns[role]
-        self._known(at)
+        self._check_unit(at)
         if role is Role.DEVIATION and level_of(self.roles[at]) in LEVELS[2:]:
             self.doubts.append(f"{self.table.named(at)} is in dB or Np and is not used")
             return None
@@ -205,11 +205,11 @@ class _Reading:
 
     def _ohms(self, at: int) -> float:
         """Factor from a column's unit to ohm, where it is a unit of impedance; else 1."""
-        stated = self.magnitude_unit or _stated(self.table.headers[at])
+        stated = self.magnitude_unit or _unit_in(self.table.headers[at])
         unit = gain(str(stated))
         return unit.ohms if unit and unit.ohms else 1.0
 
-    def _known(self, at: int) -> None:
+    def _check_unit(self, at: int) -> None:
         """Raise InputError where the unit that a column states is not known."""
         unknown, header = self.roles[at].unknown, self.table.headers[at]
         if unknown and header.rstrip().endswith(")") and NAME.fullmatch(unknown):
@@ -240,7 +240,7 @@ class _Reading:
     def _level(self, at: int) -> str:
         """The level that is requested or stated."""
         if self.magnitude_unit is None:
-            self._known(at)
+            self._check_unit(at)
             return level_of(self.roles[at])
         if in_ohm(str(self.magnitude_unit)):
             return "1"
@@ -288,14 +288,14 @@ class _Reading:
         """The unit that the caller named, or the header, or the more likely one."""
         column, phase = self.roles[at], self.table.column(at)
         if self.phase_unit is not None:
-            asked = known_unit(str(self.phase_unit), PHASES)
-            if asked is None:
+            given = known_unit(str(self.phase_unit), PHASES)
+            if given is None:
                 raise InputError(
                     f"{short(self.phase_unit)} is no unit of phase that is known; known are"
                     f" {enumeration(PHASES)}: give --unit phase=deg"
                 )
-            return asked
-        self._known(at)
+            return given
+        self._check_unit(at)
         unit = column.unit or checks.likely_phase_unit(phase)
         doubt = checks.phase_unit(phase, unit, said=bool(column.unit))
         if not column.unit:
@@ -321,8 +321,8 @@ def _grid(
             f"{table.origin}, {table.named(at)}: {short(column.unknown)} is no unit of frequency"
             f" that is known; known are {enumeration(FREQUENCIES)}: give --unit frequency=Hz"
         )
-    grid, said = in_omega(table.column(at), column.unit or None, asked, table.named(at))
-    (doubts if column.unit else notes).extend([said] if said else [])
+    grid, note = in_omega(table.column(at), column.unit or None, asked, table.named(at))
+    (doubts if column.unit else notes).extend([note] if note else [])
     return grid
 
 
@@ -363,7 +363,7 @@ def _is_impedance(
         is_voltage = (ours.get("output label"), ours.get("output unit")) == tuple(VOLTAGE)
         return ours.get("sensor") == OF_IMPEDANCE or is_voltage
     headers = [table.headers[at] for role, at in group.columns.items() if role not in NO_GAIN]
-    units = {text: gain(text) for text in (str(magnitude_unit or ""), *map(_stated, headers))}
+    units = {text: gain(text) for text in (str(magnitude_unit or ""), *map(_unit_in, headers))}
     if any(unit.ohms and OHM.search(text) for text, unit in units.items() if unit):
         return True
     moves = any(motion(unit.output) for unit in units.values() if unit)
@@ -375,12 +375,12 @@ def _is_impedance(
     return is_ratio or is_named
 
 
-def _stated(header: str) -> str:
+def _unit_in(header: str) -> str:
     """The unit in a header, "" without one that is known."""
     return meaning(header).unit
 
 
-def _written(comments: Sequence[str]) -> dict[str, str]:
+def _read_own_fields(comments: Sequence[str]) -> dict[str, str]:
     """Fields that `files.csv_text` wrote into comment lines; empty for a file of another origin."""
     pairs = [comment.split(": ", 1) for comment in comments if ": " in comment]
     plain = {name: ESCAPED.sub(lambda code: chr(int(code[1], 16)), text) for name, text in pairs}

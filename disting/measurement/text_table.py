@@ -57,7 +57,7 @@ def table(text: str, origin: str) -> Table:
             numbers.append(n)
             rows.append(line)
     if 1 < len(rows) <= MOST_QUANTITIES:
-        turned = _turned(rows, origin, tuple(comments))
+        turned = _transpose(rows, origin, tuple(comments))
         if turned is not None:
             return turned
     delimiter, decimal = _dialect(rows, origin)
@@ -79,7 +79,7 @@ def table(text: str, origin: str) -> Table:
     )
 
 
-def _turned(lines: list[str], origin: str, comments: tuple[str, ...]) -> Table | None:
+def _transpose(lines: list[str], origin: str, comments: tuple[str, ...]) -> Table | None:
     """The table of a few long lines, one for each quantity, the first of them rising or falling
     frequencies; each may begin with its name. None for any other.
     """

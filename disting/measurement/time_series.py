@@ -155,14 +155,14 @@ class TimeSeries:
             + (self.left_out and f"; {self.left_out}"),
             columns=self.columns,
             loop=the_response.loop if self.reference is None else None,
-            method=the_response.method and self._completed(the_response.method),
+            method=the_response.method and self._complete_method(the_response.method),
         )
         if hold is not None:
             held = 1 / self.sampling_rate if hold == "record" else hold
             response = response.held(held, self.sensor.order)
         return response if quantity is None else response.to_quantity(quantity)
 
-    def _completed(self, method: Method) -> Method:
+    def _complete_method(self, method: Method) -> Method:
         return replace(
             method,
             level=float(np.std(self.u)),

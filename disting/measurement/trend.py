@@ -132,7 +132,7 @@ def describe(trend: Trend, rate: float, order: int | None, role: str, signal: Si
     name = {0: "speed", 1: "acceleration"}.get(-1 if order is None else order, "slope")
     value = f"{middle:.3g} {per_second}"
     if not trend.change:
-        said = f"constant {name} {value}" if name != "slope" else f"slope {value}"
+        text = f"constant {name} {value}" if name != "slope" else f"slope {value}"
     else:
-        said = f"{name} from {middle - half:.3g} to {middle + half:.3g} {per_second}"
-    return f"{said} removed from {f'{role} {signal}'.strip()}; --read trend=keep keeps it"
+        text = f"{name} from {middle - half:.3g} to {middle + half:.3g} {per_second}"
+    return f"{text} removed from {f'{role} {signal}'.strip()}; --read trend=keep keeps it"

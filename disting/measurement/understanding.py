@@ -79,7 +79,7 @@ def record_variables(
     caller named.
     """
     used = (
-        ReadColumn(name, 0, use.role, use.unit, _named(name in asked), use.unit_why)
+        ReadColumn(name, 0, use.role, use.unit, _reason_of_name(name in asked), use.unit_why)
         for name, use in uses.items()
     )
     return (*used, *(ReadColumn(n, 0, Role.OTHER, is_used=False) for n in names if n not in uses))
@@ -153,7 +153,7 @@ def _record(plain: ReadColumn, column: Column, use: Use | None, nothing_read: bo
     return replace(plain, role=column.role, unit=unit, why=why, unit_why=stated, is_used=is_used)
 
 
-def _named(by_caller: bool) -> Why:
+def _reason_of_name(by_caller: bool) -> Why:
     return Why.OPTION if by_caller else Why.WORD
 
 

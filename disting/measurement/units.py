@@ -107,7 +107,7 @@ def motion(text: str) -> Motion | None:
     >>> motion("rpm")
     Motion(base='rad', order=1, factor=0.10471975511965977)
     """
-    return _parted(text)[0]
+    return _split_unit(text)[0]
 
 
 def known_unit(text: str, kind: Iterable[str]) -> str | None:
@@ -169,9 +169,9 @@ def gain(text: str) -> Gain | None:
     rest = (referred[2] if referred else text).strip()
     if rest.startswith("(") and rest.endswith(")") and referred:
         rest = rest[1:-1]
-    said = _per(_products(rest))
+    units = _per(_products(rest))
     name = known_unit(referred[1], LEVELS) if referred else "1"
-    return None if said is None or name is None else said._replace(level=name)
+    return None if units is None or name is None else units._replace(level=name)
 
 
 def _per(text: str) -> Gain | None:
@@ -223,7 +223,7 @@ def unit_as(text: str, sensor: Sensor, wanted: Sensor) -> str:
     >>> unit_as("cm", Sensor.POSITION, Sensor.ACCELERATION)
     'cm/s^2'
     """
-    the_unit, name, steps = _parted(text)
+    the_unit, name, steps = _split_unit(text)
     if the_unit is None:
         return text if sensor is wanted else ""
     if the_unit.sensor is not sensor:
@@ -261,7 +261,7 @@ def ratio(texts: Iterable[str]) -> tuple[str, str] | None:
     return members.pop() if len(members) == 1 else None
 
 
-def _parted(text: str) -> tuple[Motion | None, str, int]:
+def _split_unit(text: str) -> tuple[Motion | None, str, int]:
     """A unit of a motion, its name in `MOTIONS` and how often that was differentiated."""
     plain = re.sub(r"\s", "", text).replace("²", "^2").replace("**2", "^2").replace("/s2", "/s^2")
     for suffix, steps in sorted(PER_TIME.items(), key=lambda parts: -len(parts[0])):

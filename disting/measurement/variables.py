@@ -91,8 +91,8 @@ def from_variables(
         scatter[0]: Use(Role.DEVIATION),
         shared[0]: Use(Role.COHERENCE),
     }
-    asked = (frequency, response, deviation, coherence)
-    read = record_variables(arrays, {n: use for n, use in uses.items() if n}, asked)
+    names = (frequency, response, deviation, coherence)
+    read = record_variables(arrays, {n: use for n, use in uses.items() if n}, names)
     assumed = ASSUMED_IMPEDANCE if impedance else ASSUMED_ACCELERATION
     noted = the_response.noted(None if quantity else assumed, taken)
     return noted.read_as(sentence(read), read)
@@ -137,9 +137,9 @@ def series_from_variables(
         split_index(output)[0]: Use(Role.OUTPUT),
         (split_index(reference)[0] or ""): Use(Role.REFERENCE),
     }
-    asked = {split_index(n)[0] for n in (input, output, reference, time)}
-    asked |= {sampling_rate} if isinstance(sampling_rate, str) else set()
-    read = record_variables(arrays, {n: use for n, use in uses.items() if n}, asked)
+    names = {split_index(n)[0] for n in (input, output, reference, time)}
+    names |= {sampling_rate} if isinstance(sampling_rate, str) else set()
+    read = record_variables(arrays, {n: use for n, use in uses.items() if n}, names)
     title = f"{origin}, {output} per {input}"
     return TimeSeries(*samples, rate, shown, *signals, title, notes, wanted, columns=read)
 
@@ -190,14 +190,14 @@ def _name(arrays: Arrays, asked: str | None, usual: Sequence[str], role: str, or
         if variable is None:
             raise InputError(
                 f"{origin}: which variable is the {role}? give --read {role}=NAME; variables:"
-                f" {_listed(arrays)}"
+                f" {_list_arrays(arrays)}"
             )
         return variable
     names = list(arrays)
     found = matching(names, asked)
     if len(found) != 1:
         count = f"{len(found)} variables like" if found else "no variable"
-        raise InputError(f"{origin} has {count} {short(asked)}; variables: {_listed(arrays)}")
+        raise InputError(f"{origin} has {count} {short(asked)}; variables: {_list_arrays(arrays)}")
     return names[found[0]]
 
 
@@ -227,7 +227,9 @@ def _optional(
 def _numeric(arrays: Arrays, name: str, origin: str) -> NDArray[Any]:
     array = np.asarray(arrays[name]())
     if array.dtype.kind not in "biufc" or not array.size:
-        raise InputError(f"{origin}: {name} is no array of numbers; variables: {_listed(arrays)}")
+        raise InputError(
+            f"{origin}: {name} is no array of numbers; variables: {_list_arrays(arrays)}"
+        )
     return array.astype(np.complex128 if array.dtype.kind == "c" else np.float64)
 
 
@@ -280,5 +282,5 @@ def _scalar(arrays: Arrays, name: str, origin: str) -> float:
     return float(values.item())
 
 
-def _listed(arrays: Arrays) -> str:
+def _list_arrays(arrays: Arrays) -> str:
     return enumeration(sorted(arrays)) or "none"

@@ -107,7 +107,7 @@ def estimate(
         coherence=np.clip(coherence, 0.0, 1.0)[good],  # 1 + rounding where nothing is noisy
         notes=tuple(notes),
         freedom=2.0 * (effective - 1),
-        doubts=_smoothed(lines[good], *relative, segment, SEEN * smooth),
+        doubts=_report_smoothing(lines[good], *relative, segment, SEEN * smooth),
         window=Window(segment / rate, order, ratio, share) if smooth else None,
         method=Method(segment=segment, segments=count),
         loop=None if loop is None else loop.feedback(fed_back[good], alone[good]),
@@ -155,22 +155,24 @@ def _bias(response: Complex, deviation: Real) -> tuple[Complex, Real, Real]:
     """Of each line, shape (n_f,) each: the bias that is taken out, the deviation then, and how far
     the bias is beyond chance.
     """
-    curved, chance = _curved(response), CURVED * deviation**2
+    curved, chance = _second_differences(response), CURVED * deviation**2
     beyond = np.sqrt(np.maximum(np.abs(curved) ** 2 - chance, 0.0)) / 6
     share = np.maximum(1 - SURE * chance / np.maximum(np.abs(curved) ** 2, TINY), 0.0)
     bias = share * curved / 6
-    left = np.hypot(np.maximum(beyond - np.abs(bias), 0.0), np.abs(_curved(bias)) / 6)
+    left = np.hypot(np.maximum(beyond - np.abs(bias), 0.0), np.abs(_second_differences(bias)) / 6)
     return bias, np.hypot(deviation * np.sqrt(1 + GROWTH * share**2), left), beyond
 
 
-def _curved(values: Complex) -> Complex:
+def _second_differences(values: Complex) -> Complex:
     """Second differences, shape (n_f,), at the ends those of the next line."""
     if len(values) < 3:
         return np.zeros_like(values)
     return np.pad(np.diff(values, 2), 1, mode="edge")
 
 
-def _smoothed(grid: Real, bias: Real, deviation: Real, segment: int, but: str) -> tuple[str, ...]:
+def _report_smoothing(
+    grid: Real, bias: Real, deviation: Real, segment: int, but: str
+) -> tuple[str, ...]:
     """Where segments are too short for the response, by relative bias and deviation of the lines,
     shape (n_f,) each; `but`: what a fit does.
     """

@@ -78,9 +78,9 @@ class Constraint:
 
     def refusal(self, i: Indices) -> str:
         """Message about a chain that violates it: in words, then in the paper's symbols."""
-        said = self.words.format(**i._asdict(), low=i.gap + 1, highest_gap=i.n_masses - 1)
+        words = self.words.format(**i._asdict(), low=i.gap + 1, highest_gap=i.n_masses - 1)
         return (
-            f"{said} (constraint ({self.equation}) {self.text} is violated by N_B={i.n_masses},"
+            f"{words} (constraint ({self.equation}) {self.text} is violated by N_B={i.n_masses},"
             f" n_gap={i.gap}, n_act-={i.act_minus}, n_act+={i.act_plus}, n_meas-={i.meas_minus},"
             f" n_meas+={i.meas_plus})"
         )

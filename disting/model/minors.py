@@ -43,7 +43,7 @@ def is_minor(part: Structure, whole: Structure, places: Places) -> bool:
     named = set(places) <= set(kept) and set(places.values()) <= set(nodes)
     if not named or places.get(0) != 0 or part.lag > whole.lag or part.dead_time > whole.dead_time:
         return False
-    met = {met for e in whole.elements for met in _met(e, places)}
+    met = {met for e in whole.elements for met in _find_places(e, places)}
     return set(part.elements) <= met and all(
         _is_run(whole, [i for i, at in places.items() if at == node]) for node in nodes[1:]
     )
@@ -100,7 +100,7 @@ def fates(part: Structure, whole: Structure, places: Places) -> Fates:
     (('m1', 2), ['k12'])
     """
     own = {e: e.parameter for e in part.elements}
-    met = {e.parameter: own[x] for e in whole.elements for x in _met(e, places) if x in own}
+    met = {e.parameter: own[x] for e in whole.elements for x in _find_places(e, places) if x in own}
     count = Counter(met.values())
     shared = {name: (mine, count[mine]) for name, mine in met.items()}
     shared |= {name: (name, 1) for name in TIMES & {*part.parameters}}
@@ -156,11 +156,13 @@ class _Search:
             return True
         if before:
             return all(
-                joint in self._met(places) for joint in _joints(self.part) if before in joint
+                joint in self._find_joints(places)
+                for joint in _joints(self.part)
+                if before in joint
             )
-        return at - 1 in self.ports or bool(self._met(places, at - 1) & _joints(self.part))
+        return at - 1 in self.ports or bool(self._find_joints(places, at - 1) & _joints(self.part))
 
-    def _met(self, places: Places, of: int | None = None) -> set[Joint]:
+    def _find_joints(self, places: Places, of: int | None = None) -> set[Joint]:
         """Where joints of the whole, or those of one mass, are in the part."""
         return {
             Joint(places[i] for i in joint)
@@ -180,7 +182,7 @@ def _is_run(whole: Structure, masses: list[int]) -> bool:
     return bool(masses) and all(step in _joints(whole) for step in steps)
 
 
-def _met(e: Element, places: Places) -> Iterator[Element]:
+def _find_places(e: Element, places: Places) -> Iterator[Element]:
     """Yield where it is in the part, if it is between neighbours there, or at a node."""
     ends = (e.at, e.at + 1) if e.kind in "kd" else (e.at,)
     if all(i in places for i in ends):

@@ -72,9 +72,9 @@ def read(text: str) -> Name:
     >>> read("3:1+b2+lag"), read("A4").masses
     (Name(masses=3, number=1, extras='+b2+lag'), 0)
     """
-    match = NAME.fullmatch(_joined(text))
+    match = NAME.fullmatch(_strip_blanks(text))
     if match is None:
-        meant = _meant(text)
+        meant = _suggest_name(text)
         raise InputError(
             "a model is written masses:number, for instance 3:4 or 3:4+b1+lag, or A4 where the"
             f" number of masses is known, not {short(text)}"
@@ -153,7 +153,7 @@ def is_whole_name(text: str) -> bool:
     >>> [is_whole_name(text) for text in ("3:9", "A9", "drive")]
     [True, False, False]
     """
-    match = NAME.fullmatch(_joined(text))
+    match = NAME.fullmatch(_strip_blanks(text))
     if re.search(ACROSS, text):
         return is_whole_name(re.sub(ACROSS, "", text, count=1))
     return (match is not None and bool(match[1])) or INDICES.fullmatch(text) is not None
@@ -212,16 +212,16 @@ def extend(chain: Chain, extras: str) -> Chain:
     return replace(chain, ground_dampers=dampers, lag="lag" in words, dead_time="delay" in words)
 
 
-def _joined(text: str) -> str:
+def _strip_blanks(text: str) -> str:
     """Without blanks at the ends and around + and the colon."""
     return re.sub(r"\s*([:+])\s*", r"\1", text.strip())
 
 
-def _meant(text: str) -> str:
+def _suggest_name(text: str) -> str:
     """The name that a text may have been meant for; "" if none is near."""
     if len(text) > LONGEST:
         return ""
-    head, *words = _joined(text.replace("_", " ")).lower().split("+")
+    head, *words = _strip_blanks(text.replace("_", " ")).lower().split("+")
     head = re.sub(r"^a?(\d{1,2})\s*[.;,/\- ]\s*a?(\d{1,6})$", r"\1:\2", head)
     near = [_word(word.replace(" ", "")) for word in words]
     mended = "+".join([head, *near])

@@ -138,10 +138,10 @@ class Row:
     def __str__(self) -> str:
         where = "at a wall" if self.grounded else "free"
         dampers = "+".join(map(str, self.ground_dampers))
-        said = [f"{self.n_masses} masses {where}, ports {self.a} and {self.b}"]
-        said += [] if self.damped else ["undamped"]
-        said += [f"ground dampers {dampers}"] if dampers else []
-        return ", ".join(said)
+        words = [f"{self.n_masses} masses {where}, ports {self.a} and {self.b}"]
+        words += [] if self.damped else ["undamped"]
+        words += [f"ground dampers {dampers}"] if dampers else []
+        return ", ".join(words)
 
 
 def rows_of(structure: Structure) -> tuple[Row, ...]:

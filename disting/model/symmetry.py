@@ -52,7 +52,7 @@ def forms(chain: Chain) -> tuple[Form, ...]:
     """
     refuse_gap_damper(chain)
     return tuple(
-        Form(_moved(chain, chosen), chosen, _renaming(chain, chosen)) for chosen in _choices()
+        Form(_move_chain(chain, chosen), chosen, _renaming(chain, chosen)) for chosen in _choices()
     )
 
 
@@ -62,7 +62,7 @@ def canonical(chain: Chain) -> Form:
     are renamings by symmetry. Raises InputError as `forms` does.
     """
     refuse_gap_damper(chain)
-    moved = {chosen: _moved(chain, chosen) for chosen in _choices()}
+    moved = {chosen: _move_chain(chain, chosen) for chosen in _choices()}
     best = min(
         moved, key=lambda chosen: (moved[chosen].indices, moved[chosen].ground_dampers, len(chosen))
     )
@@ -104,7 +104,7 @@ def _choices() -> Iterator[tuple[Symmetry, ...]]:
         yield tuple(s for s, on in zip(Symmetry, chosen, strict=True) if on)
 
 
-def _moved(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Chain:
+def _move_chain(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Chain:
     act, meas = chain.act_plus, chain.meas_plus
     act_minus, meas_minus = chain.act_minus, chain.meas_minus
     if Symmetry.RECIPROCITY_FREE in symmetries:
@@ -130,12 +130,12 @@ def _moved(chain: Chain, symmetries: tuple[Symmetry, ...]) -> Chain:
 def _renaming(chain: Chain, symmetries: tuple[Symmetry, ...]) -> dict[str, str]:
     mirrored = Symmetry.REFLECTION in symmetries
     renaming = {
-        e.parameter: _folded(e, chain, mirrored).parameter for e in chain.structure.elements
+        e.parameter: _fold_element(e, chain, mirrored).parameter for e in chain.structure.elements
     }
     return renaming | {p: p for p in chain.parameters if p not in renaming}
 
 
-def _folded(element: Element, chain: Chain, mirrored: bool) -> Element:
+def _fold_element(element: Element, chain: Chain, mirrored: bool) -> Element:
     """Where reflection of the free row takes an element: a joint between i and i+1 goes to
     between fold(i+1) and fold(i).
     """

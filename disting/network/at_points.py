@@ -170,18 +170,18 @@ def _entry(e: Element, places: dict[str, int], power: int, scale: int) -> Entry:
 
 def sides_at(of: Assembly, point: Sequence[int], modulus: int) -> Sides | None:
     """N and D at a point without zeros; None where P cannot be inverted at enough numbers s."""
-    seen = solve(of.frame, tuple(point), modulus)
-    if not seen:
+    solution = solve(of.frame, tuple(point), modulus)
+    if not solution:
         return None
-    rows, wanted = [_at_number(of, at, modulus) for at in seen], len(seen)
+    rows, wanted = [_at_number(of, at, modulus) for at in solution], len(solution)
     powers = nmod_mat(
-        wanted, wanted, [pow(at.s, j, modulus) for at in seen for j in range(wanted)], modulus
+        wanted, wanted, [pow(at.s, j, modulus) for at in solution for j in range(wanted)], modulus
     )
     width = len(rows[0])
     right_sides = nmod_mat(wanted, width, [x for row in rows for x in row], modulus)
     numbers = [int(x) for x in powers.solve(right_sides).entries()]
     num, den, *slopes = (nmod_poly(numbers[i::width], modulus) for i in range(width))
-    return _turned(of, point, num, den, slopes)
+    return _invert_dividing(of, point, num, den, slopes)
 
 
 @lru_cache(maxsize=4)  # for the other ports of the same network
@@ -253,7 +253,7 @@ def _at_number(of: Assembly, at: PointSolution, modulus: int) -> list[int]:
     return sides
 
 
-def _turned(
+def _invert_dividing(
     of: Assembly, point: Sequence[int], num: nmod_poly, den: nmod_poly, slopes: list[nmod_poly]
 ) -> Sides:
     """The same times all values that divide, with the derivatives by the values themselves."""

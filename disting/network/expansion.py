@@ -56,8 +56,8 @@ def transfer_functions(
         above = minors([[*r, b] for r, b in zip(rows, entering, strict=True)], {0: unit}, times)
         columns.append(
             [
-                _turned(
-                    _bordered(above, _vector(out, size, unit), unit - unit, times)
+                _invert_dividing(
+                    _border_minors(above, _vector(out, size, unit), unit - unit, times)
                     * ring[s] ** gained
                     * scale**2,
                     determinant,
@@ -96,7 +96,7 @@ def _vector(port: Port, size: int, unit: fmpz_mpoly) -> list[fmpz_mpoly]:
     return [unit * port.ends.get(i, 0) for i in range(1, size + 1)]
 
 
-def _bordered(
+def _border_minors(
     above: Minors,
     sensor: list[fmpz_mpoly],
     zero: fmpz_mpoly,
@@ -107,7 +107,7 @@ def _bordered(
     return minors([last], above, times).get((2 << len(sensor)) - 1, zero)
 
 
-def _turned(num: fmpz_mpoly, den: fmpz_mpoly, dividing: list[str]) -> Sides:
+def _invert_dividing(num: fmpz_mpoly, den: fmpz_mpoly, dividing: list[str]) -> Sides:
     """Both with 1/p for values p that divide, times all of these values."""
     if not dividing:
         return num, den

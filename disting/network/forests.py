@@ -136,7 +136,7 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     geared = any(e.ratio for e in network.elements)
     if of is None or (geared and (without_gears(network) is None or not _sign(of))):
         return None
-    counts = _counted(of)
+    counts = _count_assembly(of)
     if counts is None or not any(counts.num) or not any(counts.den):
         return None
     label = about("lowest terms", network.elements, network.ports, network.order, halves)
@@ -148,7 +148,7 @@ def counts_of(network: Network, halves: bool) -> Counts | None:
     return counts if kept and all(a or b for a, b in slopes) else None
 
 
-def _counted(of: Assembly) -> Counts | None:
+def _count_assembly(of: Assembly) -> Counts | None:
     """Those of an assembly whose ratios agree; None of one whose terms are not counted, or where
     both sides share the ratio of a gear.
     """

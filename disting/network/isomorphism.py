@@ -138,10 +138,10 @@ class _Pair:
             v: (label, fixed.get(v, -1))
             for v, label in (self.left.labels | self.right.labels).items()
         }
-        colours, count = _numbered(first), 0
+        colours, count = _number_labels(first), 0
         while len(set(colours.values())) > count:
             count = len(set(colours.values()))
-            colours = _numbered(
+            colours = _number_labels(
                 {
                     v: (colours[v], tuple(sorted((str(label), colours[w]) for label, w in near[v])))
                     for v in colours
@@ -150,7 +150,7 @@ class _Pair:
         return colours
 
 
-def _numbered(labels: Labels) -> Colours:
+def _number_labels(labels: Labels) -> Colours:
     """Numbers of the labels, the same for equal ones."""
     numbers: dict[Hashable, int] = {}
     return {v: numbers.setdefault(label, len(numbers)) for v, label in labels.items()}

@@ -95,7 +95,7 @@ def minors(part: Network, whole: Network) -> Iterator[dict[int, int]]:
         return
     for start in _port_places(part, whole):
         order = sorted(set(whole.nodes) - start.keys())
-        for places in islice(_grown(part, whole, start, order), TRIED):
+        for places in islice(_extend_places(part, whole, start, order), TRIED):
             if is_minor(part, whole, places):
                 yield places
 
@@ -128,7 +128,7 @@ def _has_ports(part: Network, whole: Network, places: Places) -> bool:
     return len(set(signs)) == 1
 
 
-def _grown(
+def _extend_places(
     part: Network, whole: Network, places: dict[int, int], order: list[int]
 ) -> Iterator[dict[int, int]]:
     """Yield all ways to place the nodes that have none."""
@@ -153,7 +153,7 @@ def _grown(
     if whole.is_directed:
         choices |= {0}
     for at in sorted(choices):
-        yield from _grown(part, whole, places | {node: at}, rest)
+        yield from _extend_places(part, whole, places | {node: at}, rest)
 
 
 def _meets(part: Network, whole: Network, places: Places) -> dict[str, Element] | None:

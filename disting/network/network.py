@@ -290,13 +290,13 @@ def seen_by_blocks(
     graph: networkx.Graph[Any] = networkx.Graph()
     for (a, b), key in joined:
         graph.add_edges_from(((a, key), (key, b)))
-    seen = set[int]()
+    found = set[int]()
     blocks: Iterable[Iterable[Any]] = networkx.biconnected_components(graph)
     for block in blocks:
         marks = {key[0] for key in block if isinstance(key, tuple)}
         if {"in", "out"} <= marks:
-            seen |= {at for at in marks if isinstance(at, int)}
-    return frozenset(seen)
+            found |= {at for at in marks if isinstance(at, int)}
+    return frozenset(found)
 
 
 def reachable(elements: Sequence[Element], start: Iterable[int], backwards: bool) -> set[int]:
@@ -464,7 +464,7 @@ class Network(NotebookPicture):
         """The elements that can enter: for the others the place in the graph shows that they do
         not.
         """
-        return _seen(self)
+        return _observable_elements(self)
 
     @property
     def unseen(self) -> tuple[str, ...]:
@@ -494,20 +494,20 @@ class Network(NotebookPicture):
         Unobservable parts are contracted: in reciprocal networks no current flows in them, or none
         that a port measures. Compartments that are not observable are the outside.
         """
-        seen, nodes = self.seen, (0, *self.nodes)
+        observable, nodes = self.seen, (0, *self.nodes)
         if self.is_directed:
-            rigid = [(0, i) for i in set(nodes) - {e.nodes[0] for e in seen}]
+            rigid = [(0, i) for i in set(nodes) - {e.nodes[0] for e in observable}]
         else:
             whole = parts(nodes, (edge for e in self.elements for edge in edges(e)))
             rigid = [(0, i) for i in set(whole.values())]
-            rigid += [edge for e in self.elements if e not in seen for edge in edges(e)]
+            rigid += [edge for e in self.elements if e not in observable for edge in edges(e)]
         roots = parts(nodes, rigid)
         kept = sorted(set(roots.values()) - {0})
         numbers = {0: 0} | {i: at for at, i in enumerate(kept, 1)}
         places = {i: numbers[roots[i]] for i in nodes}
         moved = [Port(places[p.plus], places[p.minus]) for p in self.ports]
-        return _unchecked(
-            tuple(renumber(places, e) for e in seen),
+        return _build_unchecked(
+            tuple(renumber(places, e) for e in observable),
             tuple(moved[: len(self.inputs)]),
             tuple(moved[len(self.inputs) :]),
             self,
@@ -519,7 +519,7 @@ class Network(NotebookPicture):
         measured there is no path between both.
         """
         return tuple(
-            tuple(_unchecked(self.elements, (enter,), (show,), self) for enter in self.inputs)
+            tuple(_build_unchecked(self.elements, (enter,), (show,), self) for enter in self.inputs)
             for show in self.outputs
         )
 
@@ -530,13 +530,13 @@ class Network(NotebookPicture):
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _seen(network: Network) -> tuple[Element, ...]:
+def _observable_elements(network: Network) -> tuple[Element, ...]:
     find = seen_by_flows if network.is_directed else seen_by_blocks
     chosen = find(network.elements, network.inputs, network.outputs)
     return tuple(e for i, e in enumerate(network.elements) if i in chosen)
 
 
-def _unchecked(
+def _build_unchecked(
     elements: tuple[Element, ...],
     inputs: tuple[Port, ...],
     outputs: tuple[Port, ...],

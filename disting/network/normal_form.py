@@ -119,15 +119,15 @@ def exact_form(network: Network) -> tuple[tuple[int, int, Part], ...] | None:
 
 def in_series(parts: Iterable[Part]) -> Part:
     """Parts one after the other."""
-    return _joined("S", parts)
+    return _join_parts("S", parts)
 
 
 def in_parallel(parts: Iterable[Part]) -> Part:
     """Parts side by side."""
-    return _joined("P", parts)
+    return _join_parts("P", parts)
 
 
-def _joined(form: str, parts: Iterable[Part]) -> Part:
+def _join_parts(form: str, parts: Iterable[Part]) -> Part:
     single, others = set[Power](), list[Part]()
     most, least = Counter[tuple[Power, Power]](), Counter[tuple[Power, Power]]()
     for part in parts:

@@ -35,7 +35,7 @@ def simplest_outflows(
     if not all({*leaky} & reachable({j}, flows) for j in leave):
         return {*leaky}
     ends = {*enter, *leave}
-    nodes = {_first_passed(m, flows, ends) for m in leaky}
+    nodes = {_find_gate(m, flows, ends) for m in leaky}
     return ends if len(enter) == len(leave) == 1 and ends <= nodes else nodes
 
 
@@ -47,7 +47,7 @@ def reachable(starts: Collection[int], flows: Flows, without: Collection[int] = 
     return nodes
 
 
-def _first_passed(at: int, flows: Flows, ends: Collection[int]) -> int:
+def _find_gate(at: int, flows: Flows, ends: Collection[int]) -> int:
     """The first of the compartments that all ways from the ends to this one pass through."""
     nodes = {i for flow in flows for i in flow} | {at}
     passed = {c for c in nodes if at not in reachable(ends, flows, {c})}

@@ -72,8 +72,10 @@ def network_text(
     elements: Iterable[Element], inputs: Iterable[Port], outputs: Iterable[Port]
 ) -> str:
     """Elements and ports as text."""
-    said = [f"in {p.plus} {p.minus}" for p in inputs] + [f"out {p.plus} {p.minus}" for p in outputs]
-    return ", ".join([*map(str, elements), *said])
+    words = [f"in {p.plus} {p.minus}" for p in inputs] + [
+        f"out {p.plus} {p.minus}" for p in outputs
+    ]
+    return ", ".join([*map(str, elements), *words])
 
 
 def same_drawing(network: Network, other: Network) -> bool:
@@ -144,7 +146,7 @@ def _orders(
         for i in everyone
     }
     colours = 0
-    while len(ranks := _ranked(look.values())) > colours:
+    while len(ranks := _rank_looks(look.values())) > colours:
         colours = len(ranks)
         colour = {i: ranks.index(look[i]) for i in everyone}
         look = {
@@ -160,7 +162,7 @@ def _orders(
         yield tuple(i for group in chosen for i in group)
 
 
-def _ranked(looks: Iterable[Any]) -> list[Any]:
+def _rank_looks(looks: Iterable[Any]) -> list[Any]:
     ranked = list[Any]()
     for look in sorted(looks):
         if not ranked or ranked[-1] != look:

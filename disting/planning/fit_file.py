@@ -114,7 +114,7 @@ def named_by(path: Path) -> FitRecord:
             plain["explained"] is True or plain.get("status") == STATUS[Level.NEARLY],
             {c: v for c, v in _rivals(plain, model) if c != model and reference(c) not in same},
             same,
-            tuple(_left(plain, model, values)),
+            tuple(_read_left(plain, model, values)),
             number_of(plain["scatter"], 0.0),
             number_of(range_of["low"], 0.0),
             number_of(range_of["high"], 0.0),
@@ -123,7 +123,7 @@ def named_by(path: Path) -> FitRecord:
             str(plain.get("command", "")),
             dict(_errors(plain["selected"], values)),
             dict(model_from_dict(m) for m in plain["not_excluded"] if _is_larger(m, model)),
-            frozenset(map(chain_from_dict, _determined(plain))),
+            frozenset(map(chain_from_dict, _select_determined(plain))),
         )
     except MisnamedError as reason:
         raise InputError(f"{path}: {reason}") from None
@@ -149,7 +149,7 @@ def _is_larger(entry: Mapping[str, Any], model: Chain) -> bool:
     return bool(entry.get("contains")) or contains(chain_from_dict(dict(entry)), model)
 
 
-def _determined(plain: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def _select_determined(plain: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
     """Yield the candidates of which the data determine all parameters."""
     return (c for c in plain.get("candidates", []) if c["admissible"])
 
@@ -164,7 +164,7 @@ def _rivals(plain: dict[str, Any], model: Chain) -> Iterator[tuple[Chain, Parame
     yield from map(model_from_dict, members)
 
 
-def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[Survivor]:
+def _read_left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[Survivor]:
     """The selected structure, the others that were fitted, then what behaves as one of these;
     each once.
     """
@@ -177,7 +177,7 @@ def _left(plain: dict[str, Any], model: Chain, values: Parameters) -> Iterator[S
 
     def add(name: str, chain: Chain) -> Chain:
         """The structure of this name, which behaves as a fitted one."""
-        other = named.setdefault(name, _listed(name, chain))
+        other = named.setdefault(name, _structure_of(name, chain))
         own.setdefault(other, [])
         like.setdefault(other, {}).update({chain: None} if other != chain else {})
         return other
@@ -220,7 +220,7 @@ def _response(chain: Chain, values: Parameters, omega: Real) -> Complex:
     return plant.response(np.array([values[name] for name in plant.parameters]))
 
 
-def _listed(name: str, chain: Chain) -> Chain:
+def _structure_of(name: str, chain: Chain) -> Chain:
     """The structure of a name, with the damping and the sensor of a chain."""
     return chain_of(name, Family(chain.n_masses, chain.damped, chain.sensor))
 
@@ -310,7 +310,7 @@ def networks_named_by(path: Path) -> NamedNetworks:
             determined=frozenset(s.network for s in others if s.is_determined),
         )
     except (KeyError, TypeError, ValueError) as reason:
-        raise _broken(path, reason) from None
+        raise _file_error(path, reason) from None
 
 
 def _read_plain(path: Path) -> Mapping[str, Any]:
@@ -340,7 +340,7 @@ def _left_networks(plain: Mapping[str, Any], path: Path) -> tuple[LeftNetwork, .
     except MisnamedError as reason:
         raise InputError(f"{path}: {reason}") from None
     except (KeyError, TypeError, ValueError, AttributeError) as reason:
-        raise _broken(path, reason) from None
+        raise _file_error(path, reason) from None
     if not survivors:
         tried = enumeration(entries, BAR)
         raise InputError(f"none of the networks of {path} explains its data ({tried}): try others")
@@ -356,5 +356,5 @@ def _with_containment(survivor: LeftNetwork, selected: Network | None) -> LeftNe
     return replace(survivor, contains=selected.name)
 
 
-def _broken(path: Path, reason: Exception) -> InputError:
+def _file_error(path: Path, reason: Exception) -> InputError:
     return InputError(f"{path} is no whole file of a fit: {reason} is missing or wrong; fit again")

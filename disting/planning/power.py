@@ -87,8 +87,8 @@ class Sample:
 
     def power(self, noncentrality: float) -> float:
         """Probability of excluding the rival if the model is true."""
-        seen = noncentrality * self.shares / self.widths
-        return float(np.mean(_exceeding(self.limits / self.widths, self.surplus, seen)))
+        bent = noncentrality * self.shares / self.widths
+        return float(np.mean(_exceeding(self.limits / self.widths, self.surplus, bent)))
 
     def needed(self, wanted: float = POWER) -> float:
         """Noncentrality for a power; infinite where one of a million does not reach it."""
@@ -126,7 +126,7 @@ def simulate(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
     limits, shares, widths = np.empty((3, DRAWS))
     for i in range(DRAWS):
         exact = [part.measured for part in rival.cost.parts]
-        each = [_found(response, rival.rho, source, repeats) for response in exact]
+        each = [_estimate_scatter(response, rival.rho, source, repeats) for response in exact]
         ratios = (
             np.abs(g.G) / k.size * rival.rho / k.rho for g, k in zip(exact, each, strict=True)
         )
@@ -139,7 +139,7 @@ def simulate(rival: Rival, surplus: int, level: float, repeats: int) -> Sample:
     return Sample(limits, shares / rival.noncentrality, widths, surplus)
 
 
-def _found(
+def _estimate_scatter(
     exact: FrequencyResponse, rho: Real, source: np.random.Generator, repeats: int
 ) -> Scatter:
     """The scatter estimated from a simulated measurement."""

@@ -399,11 +399,17 @@ def gain(rival: Rival, *measured: FrequencyResponse) -> float:
     same = map(np.array_equal, (plant.omega for plant in measured), planned)
     if len(measured) != len(parts) or not all(same):
         raise InputError("the test needs a response at the planned lines")
-    seen = tuple(replace(part, measured=m) for part, m in zip(parts, measured, strict=True))
-    cost = seen[0] if isinstance(rival.cost, Cost) else replace(rival.cost, parts=seen)
+    measured_by_plan = tuple(
+        replace(part, measured=m) for part, m in zip(parts, measured, strict=True)
+    )
+    cost = (
+        measured_by_plan[0]
+        if isinstance(rival.cost, Cost)
+        else replace(rival.cost, parts=measured_by_plan)
+    )
     plant, other = rival.search.plants
     own = np.array([rival.values[name] for name in plant.parameters])
-    return statistic(_left(other, cost, rival.best.p), _left(plant, cost, own))
+    return statistic(_fit_rest(other, cost, rival.best.p), _fit_rest(plant, cost, own))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -415,7 +421,7 @@ class _Left:
     noise: Noise
 
 
-def _left(plant: AnyPlant, cost: AnyCost, start: Real) -> _Left:
+def _fit_rest(plant: AnyPlant, cost: AnyCost, start: Real) -> _Left:
     p, _ = fine(plant, cost, box_of(plant), start)
     residual, columns = cost.of(plant, p)
     return _Left(residual, basis_of(columns), Noise(np.ones(len(residual))))

@@ -126,8 +126,8 @@ def optimal(adversary: Adversary) -> Spectrum:
     best, size, bound = np.full(count, 1.0 / count), 0.0, np.inf
     for _ in range(ANEW):
         size = adversary.searched(best)
-        best, size, bound = _improved(adversary, best, size)
-        best = _cleaned(best)
+        best, size, bound = _improve_spectrum(adversary, best, size)
+        best = _drop_idle(best)
         size = adversary.searched(best)
         if size * (1 + 2 * CLOSE) >= bound:
             break
@@ -143,7 +143,7 @@ def runnable(adversary: Adversary, best: Spectrum) -> Spectrum:
     return Spectrum(shares, adversary.searched(shares), best.bound)
 
 
-def _improved(adversary: Adversary, best: Real, size: float) -> tuple[Real, float, float]:
+def _improve_spectrum(adversary: Adversary, best: Real, size: float) -> tuple[Real, float, float]:
     """Spectrum, its lambda and the bound, after cuts until both meet."""
     bound = np.inf
     for _ in range(STEPS):
@@ -188,7 +188,7 @@ def _loose(cuts: Real) -> tuple[Real, float]:
     return np.eye(cuts.shape[1])[int(lowest.argmax())], float(lowest.max())
 
 
-def _cleaned(shares: Real) -> Real:
+def _drop_idle(shares: Real) -> Real:
     """Without lines that have next to nothing."""
     kept = np.where(shares >= VANISHING, shares, 0.0)
     return np.asarray(kept / kept.sum())
@@ -296,11 +296,11 @@ def designed_to_dict(plan: Plan, best: Design | None) -> dict[str, Any]:
     if best is None:
         return plain
     return plain | {
-        "band": _sized(plan, best.band.noncentrality)
+        "band": _size_plan(plan, best.band.noncentrality)
         | {"low": best.band.low, "high": best.band.high},
-        "optimal": _sized(plan, best.optimum.noncentrality)
+        "optimal": _size_plan(plan, best.optimum.noncentrality)
         | {"bound": best.optimum.bound, "lines": best.optimum.lines},
-        "run": _sized(plan, best.run.noncentrality)
+        "run": _size_plan(plan, best.run.noncentrality)
         | {
             "noncentrality_at_equal_peak": best.at_equal_peak,
             "crest_factors": list(best.crests),
@@ -313,7 +313,7 @@ def designed_to_dict(plan: Plan, best: Design | None) -> dict[str, Any]:
     }
 
 
-def _sized(plan: Plan, noncentrality: float) -> dict[str, float]:
+def _size_plan(plan: Plan, noncentrality: float) -> dict[str, float]:
     return {
         "noncentrality": noncentrality,
         "power": plan.power_at(noncentrality),

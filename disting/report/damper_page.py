@@ -102,12 +102,12 @@ def payload(family: DamperFamily, **more: object) -> Markup:
         "links": {name: rule.name for name, rule in LINKS.items()},
         "several": by_size.several,
         "classes": len(by_size.first),
-        "columns": [_packed(column + 1) for column in classes.columns[by_size.first].T],
+        "columns": [_pack(column + 1) for column in classes.columns[by_size.first].T],
         "open": open_classes(classes, by_size),
-        "group": _packed(by_size.group),
-        "renamed": _packed(_renumbered(classes.renamed)),
-        "free": _packed(classes.free + 1),
-        "rank": _packed(classes.rank),
+        "group": _pack(by_size.group),
+        "renamed": _pack(_renumber(classes.renamed)),
+        "free": _pack(classes.free + 1),
+        "rank": _pack(classes.rank),
     }
     return script_json(data)
 
@@ -134,12 +134,12 @@ def mirror(chain: Chain) -> int:
 
 def rules() -> dict[str, Rule]:
     """Texts of the page on every rule."""
-    said = {
+    names = {
         rule.name: (rule.sign, f"{rule.in_words()}, {rule.title}", rule.text)
         for rule in RULES.values()
         if rule.is_condition
     }
-    return said | {EXACT.name: (EXACT.sign, EXACT.in_words(), "")}
+    return names | {EXACT.name: (EXACT.sign, EXACT.in_words(), "")}
 
 
 def open_classes(classes: Classes, by_size: ClassNumbers) -> list[tuple[int, int]]:
@@ -150,13 +150,13 @@ def open_classes(classes: Classes, by_size: ClassNumbers) -> list[tuple[int, int
     )
 
 
-def _renumbered(values: NDArray[np.int32]) -> Numbers:
+def _renumber(values: NDArray[np.int32]) -> Numbers:
     """Numbers in the order of first appearance: smaller ones."""
     _, first, inverse = np.unique(values, return_index=True, return_inverse=True)
     return np.argsort(np.argsort(first))[inverse]
 
 
-def _packed(values: NDArray[np.integer]) -> list[int]:
+def _pack(values: NDArray[np.integer]) -> list[int]:
     return pack(values.tolist())
 
 
@@ -274,8 +274,8 @@ def counts(family: DamperFamily) -> list[Count]:
     indistinguishable, the undecided ones.
     """
     number, same = family.found.counts_by_rule(), family.found.counts()[Relation.INDISTINGUISHABLE]
-    said, exact = rules(), EXACT.name
-    parts = {rule: (decides(RULES[rule]), number.get(rule, 0)) for rule in said if rule != exact}
+    names, exact = rules(), EXACT.name
+    parts = {rule: (decides(RULES[rule]), number.get(rule, 0)) for rule in names if rule != exact}
     by_exact = same - sum(
         n for relation, n in parts.values() if relation is Relation.INDISTINGUISHABLE
     )
@@ -285,7 +285,7 @@ def counts(family: DamperFamily) -> list[Count]:
         (exact, Relation.INDISTINGUISHABLE, by_exact),
     ]
     own_counts = [
-        Count(said[rule][0], _title(said[rule][1]), said[rule][2], relation, n)
+        Count(names[rule][0], _title(names[rule][1]), names[rule][2], relation, n)
         for rule, relation, n in rows
     ]
     return [*own_counts, Count("", "undecided", "nothing decides", Relation.UNDECIDED, number[""])]

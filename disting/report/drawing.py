@@ -146,16 +146,16 @@ def describe(chain: Chain) -> str:
     ['no spring between mass 1 and mass 2', 'force from mass 1 on mass 2']
     """
     row = "1 mass" if chain.n_masses == 1 else f"{chain.n_masses} masses in a row"
-    said = [row + (" with dampers beside the springs" if chain.damped else "")]
+    words = [row + (" with dampers beside the springs" if chain.damped else "")]
     only = "a damper but no spring" if chain.gap_damper else "no spring"
-    said += [f"{only} between {_node(chain.gap)} and {_node(chain.gap + 1)}"]
-    said += [f"force from {_node(chain.act_minus)} on {_node(chain.act_plus)}"]
+    words += [f"{only} between {_node(chain.gap)} and {_node(chain.gap + 1)}"]
+    words += [f"force from {_node(chain.act_minus)} on {_node(chain.act_plus)}"]
     measured, reference = _node(chain.meas_plus), _node(chain.meas_minus)
-    said += [f"{chain.sensor.value} of {measured} relative to {reference}"]
-    said += [f"damper from mass {i} to the ground" for i in chain.ground_dampers]
-    said += ["first-order lag of the force"] if chain.lag else []
-    said += ["dead time"] if chain.dead_time else []
-    return "; ".join(said) + "."
+    words += [f"{chain.sensor.value} of {measured} relative to {reference}"]
+    words += [f"damper from mass {i} to the ground" for i in chain.ground_dampers]
+    words += ["first-order lag of the force"] if chain.lag else []
+    words += ["dead time"] if chain.dead_time else []
+    return "; ".join(words) + "."
 
 
 def _node(index: int) -> str:
@@ -314,9 +314,9 @@ def _pieces(x0: float, x1: float, cuts: tuple[float, ...]) -> Iterator[Place]:
 
 def _notes(at: Layout) -> Iterator[Layer]:
     """Elements that the force passes before it acts, in words."""
-    said = [("T1", "lag T1")] if at.chain.lag else []
-    said += [("Td", "dead time Td")] if at.chain.dead_time else []
-    for place, (name, text) in enumerate(said):
+    notes = [("T1", "lag T1")] if at.chain.lag else []
+    notes += [("Td", "dead time Td")] if at.chain.dead_time else []
+    for place, (name, text) in enumerate(notes):
         yield Layer(name, (Text(WALL + 9 + 50 * place, 10, text, 11, Ink.FORCE, Anchor.START),))
 
 

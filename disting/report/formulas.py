@@ -228,7 +228,7 @@ def _transfer(
     """Numerator and denominator as a quotient and, spelled out, by their coefficients."""
     head = equation(symbol(called) + OF_S, fraction(*(_in_s(*side) for side in sides)))
     flat = [
-        (f"{letter}{power}", _shown(content(p)))
+        (f"{letter}{power}", _show_polynomial(content(p)))
         for letter, coefficients in sides
         for power, p in (coefficients if spelled_out else ())
     ]
@@ -278,21 +278,23 @@ class Values:
 def written_values(assignment: Assignment) -> Values:
     """Formulas for the values of another model, typeset."""
     root = assignment.root
-    steps = (equation(symbol(name), _typed(text)) for name, text in assignment.steps)
-    equations = (equation(prime(name), _typed(text)) for name, text in assignment.values)
+    steps = (equation(symbol(name), _typeset_rational(text)) for name, text in assignment.steps)
+    equations = (equation(prime(name), _typeset_rational(text)) for name, text in assignment.values)
     return Values(
-        tuple(math(_typed(text)) for text in assignment.where),
+        tuple(math(_typeset_rational(text)) for text in assignment.where),
         (*steps, *equations),
-        (math(symbol(root[0])), *(math(_typed(text)) for text in root[1:])) if root else (),
+        (math(symbol(root[0])), *(math(_typeset_rational(text)) for text in root[1:]))
+        if root
+        else (),
     )
 
 
-def _typed(text: str) -> str:
+def _typeset_rational(text: str) -> str:
     """A rational function, factorised; a text that is none, such as infinity, as it is."""
     if text.endswith("infinity"):
         return f"<mi>{text.replace('infinity', '∞')}</mi>"
     if root := ROOT.fullmatch(text):
-        first, inside, below = map(_typed, root.groups())
+        first, inside, below = map(_typeset_rational, root.groups())
         return fraction(f"{first}<mo>+</mo><msqrt>{inside}</msqrt>", below)
     number = tree(text)
     ring = symbols(sorted({*symbols_of(number)}) or ["s"])
@@ -348,7 +350,7 @@ def _coefficients(polynomial: Polynomial) -> list[Coefficient]:
 
 
 @cache
-def _shown(own_parts: Content) -> tuple[tuple[str, ...], str]:
+def _show_polynomial(own_parts: Content) -> tuple[tuple[str, ...], str]:
     """A polynomial in MathML and in LaTeX.
 
     Many chains of a family share it: a denominator does not depend on the ports.

@@ -51,7 +51,7 @@ def notebook_page(name: str, text: str, container: Container[str]) -> GuidePage:
         outputs = {
             f"output {number}": MADE.format(made)
             for number, cell in enumerate(cells)
-            if (made := Markup("").join(_made(cell)))
+            if (made := Markup("").join(_make_outputs(cell)))
         } | {"file": OPENED.format(name)}
         parts = [
             part for number, cell in enumerate(cells) for part in _parts(number, cell, outputs)
@@ -78,7 +78,7 @@ def _parts(number: int, cell: Mapping[str, object], outputs: Container[str]) -> 
         yield f"```output {number}\n```"
 
 
-def _made(cell: Mapping[str, object]) -> Iterator[Markup]:
+def _make_outputs(cell: Mapping[str, object]) -> Iterator[Markup]:
     """The outputs of a cell: of each the richest kind that needs nothing else."""
     for output in cell.get("outputs") or ():  # type: ignore[attr-defined]
         data = {kind: _whole(content) for kind, content in output.get("data", {}).items()}
@@ -88,8 +88,8 @@ def _made(cell: Mapping[str, object]) -> Iterator[Markup]:
             yield Markup(NAMELESS.sub("<td></td>", data["text/html"]))
         elif "image/png" in data:
             yield PICTURE.format("".join(data["image/png"].split()))
-        elif said := data.get("text/plain", _whole(output.get("text", ""))):
-            yield Markup("<pre>{}</pre>").format(escape(said.rstrip()))
+        elif text := data.get("text/plain", _whole(output.get("text", ""))):
+            yield Markup("<pre>{}</pre>").format(escape(text.rstrip()))
 
 
 def _whole(lines: object) -> str:

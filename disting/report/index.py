@@ -110,8 +110,8 @@ def _machine(c: Catalog) -> dict[str, object]:
         "groups": c.classes(),
         "aside": sorted({m for pair in with_exceptions(c, View.POSITIVE) for m in pair}),
         "depends": _depending(c),
-        "open": _undecided(c),
-        "known": {row.number: said for row in c.rows if (said := unknown_parameters(row))},
+        "open": _count_undecided(c),
+        "known": {row.number: unknown for row in c.rows if (unknown := unknown_parameters(row))},
     }
 
 
@@ -127,7 +127,7 @@ def _depending(c: Catalog) -> dict[int, list[int]]:
     }
 
 
-def _undecided(c: Catalog) -> dict[int, int]:
+def _count_undecided(c: Catalog) -> dict[int, int]:
     """Number of undecided pairs of each model that has any."""
     numbers = range(1, len(c.family) + 1)
     pairs = [(i, j) for j in numbers for i in range(1, j) if c.relation(i, j) is Relation.UNDECIDED]
@@ -145,8 +145,8 @@ def thumbnail(catalog: Catalog) -> Scene:
     """The combined triangle without numbers: a blue staircase with the other fields on it."""
     size = len(catalog.family)
     runs = (run for high in range(2, size + 1) for run in _runs(catalog, high))
-    said = f"{title(catalog)}: {headline(catalog)}"
-    return staircase(size - 1, sorted(runs, key=itemgetter(0)), said)
+    label = f"{title(catalog)}: {headline(catalog)}"
+    return staircase(size - 1, sorted(runs, key=itemgetter(0)), label)
 
 
 def staircase(count: int, others: Iterable[Run], said: str = "") -> Scene:

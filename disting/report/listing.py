@@ -212,10 +212,10 @@ def judge(
         )
         for view in VIEWS
     }
-    asked = [(without_names(subject.subject),) for subject in subjects]
-    engine.answer_all(IDENTIFIABILITY, asked, executor=executor, progress=progress)
+    tasks = [(without_names(subject.subject),) for subject in subjects]
+    engine.answer_all(IDENTIFIABILITY, tasks, executor=executor, progress=progress)
     global_identifiabilities = tuple(
-        engine.answer(IDENTIFIABILITY, models, engine.settings) for models in asked
+        engine.answer(IDENTIFIABILITY, models, engine.settings) for models in tasks
     )
     over_positive = identify(
         [s.subject for s in subjects], Domain.POSITIVE, engine, executor=executor, progress=progress
@@ -234,13 +234,13 @@ def _conditions(
     progress: Progress,
 ) -> dict[tuple[int, int], Reach]:
     """Of the pairs that are the same for some positive values, both ways."""
-    asked = {
+    needed = {
         (i + 1, j + 1): (without_names(subjects[i].subject), without_names(subjects[j].subject))
         for i, j in permutations(range(len(subjects)), 2)
         if over_positive.relation(*sorted((i, j))) is Relation.SOMETIMES
     }
-    engine.answer_all(REACHED, list(asked.values()), executor=executor, progress=progress)
-    reaches = {pair: engine.answer(REACHED, m, engine.settings) for pair, m in asked.items()}
+    engine.answer_all(REACHED, list(needed.values()), executor=executor, progress=progress)
+    reaches = {pair: engine.answer(REACHED, m, engine.settings) for pair, m in needed.items()}
     return {pair: reach for pair, reach in reaches.items() if reach}
 
 

@@ -81,10 +81,10 @@ def link_words(inlines: Iterable[Token]) -> None:
     """Make the first use of each word in running text a link to the glossary, in place."""
     done: set[str] = set()
     for inline in inlines:
-        inline.children = list(_linked(inline.children or (), done))
+        inline.children = list(_link_words(inline.children or (), done))
 
 
-def _linked(children: Iterable[Token], done: set[str]) -> Iterator[Token]:
+def _link_words(children: Iterable[Token], done: set[str]) -> Iterator[Token]:
     inside = 0  # of a link, which does not nest
     for token in children:
         inside += token.nesting if token.type in ("link_open", "link_close") else 0
@@ -189,7 +189,7 @@ def guide_page(
     _with_names_of_columns(tokens)
     for before, token, after in zip(tokens, tokens[1:], tokens[2:], strict=False):
         if token.children:
-            token.children = list(_led(token.children, container))
+            token.children = list(_lead_links(token.children, container))
             if [child.type for child in token.children] == ["image"]:
                 before.hidden = after.hidden = True  # a figure is no part of a paragraph
     title = _words(tokens[1])
@@ -294,7 +294,7 @@ def _with_anchors(tokens: Sequence[Token]) -> tuple[Section, ...]:
     """Give every heading but the title an anchor, and every table the heading above it; the
     sections.
     """
-    seen: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     sections = [Section("", _words(tokens[1]), 1)]
     words: list[str] = []
     for token, inner in pairwise(tokens[2:]):
@@ -302,8 +302,8 @@ def _with_anchors(tokens: Sequence[Token]) -> tuple[Section, ...]:
             sections[-1] = replace(sections[-1], words=" ".join(words))
             words, heading = [], _words(inner)
             anchor = _anchor(heading)
-            token.attrSet("id", f"{anchor}-{seen[anchor]}" if seen[anchor] else anchor)
-            seen[anchor] += 1
+            token.attrSet("id", f"{anchor}-{counts[anchor]}" if counts[anchor] else anchor)
+            counts[anchor] += 1
             sections.append(Section(str(token.attrs["id"]), heading, int(token.tag[1:])))
         elif token.type == "table_open":
             token.meta["under"] = sections[-1].title
@@ -352,21 +352,21 @@ def _words(inline: Token) -> str:
     )
 
 
-def _led(children: Sequence[Token], container: Container[str]) -> Iterator[Token]:
+def _lead_links(children: Sequence[Token], container: Container[str]) -> Iterator[Token]:
     """The same words with links to rendered pages; of a link that leads out of the guide only
     its words.
     """
     leads = True  # links do not nest
     for token in children:
         if token.type == "link_open":
-            address = _rendered(str(token.attrs["href"]), container)
+            address = _rendered_address(str(token.attrs["href"]), container)
             leads = bool(address)
             token.attrSet("href", address)
         if leads or token.type not in ("link_open", "link_close"):
             yield token
 
 
-def _rendered(address: str, container: Container[str]) -> str:
+def _rendered_address(address: str, container: Container[str]) -> str:
     """Where a link of a page leads in the site; empty if that is nowhere."""
     if address.startswith("#"):
         return address

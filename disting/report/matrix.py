@@ -78,9 +78,9 @@ def legend_entry(relation: Relation, x: float, y: float, k: float = 1.0) -> Laye
     side = BOX * k
     dark = (corner(x, y - side / 2, relation, side),) if relation in CORNERS else ()
     sign = (Text(x + side / 2, y, "n", 10.5 * k, LETTERS[relation]),) if relation in LETTERS else ()
-    said = Text(x + 24 * k, y, SAID[relation], 12 * k, anchor=Anchor.START)
+    label = Text(x + 24 * k, y, SAID[relation], 12 * k, anchor=Anchor.START)
     return Layer(
-        f"legend-{relation}", (*field(x, y - side / 2, relation, side), *dark, *sign, said)
+        f"legend-{relation}", (*field(x, y - side / 2, relation, side), *dark, *sign, label)
     )
 
 
@@ -186,7 +186,7 @@ def slide(catalog: Catalog, view: View) -> Scene:
     grid = Grid(catalog, view, left, SLIDE_MARGIN, cell, letters)
     counted = totals(catalog, view)
     aside, rows = left + 0.55 * size * cell, [r for r in Relation if counted.get(r)]
-    said = (
+    label = (
         Text(aside, 60, title(catalog), 38, anchor=Anchor.START, bold=True),
         Text(aside, 112, VIEW_TITLES[view], 30, anchor=Anchor.START),
         *(
@@ -196,7 +196,7 @@ def slide(catalog: Catalog, view: View) -> Scene:
     )
     legends = (legend_entry(r, aside, 176 + 46 * k, 2.0) for k, r in enumerate(rows))
     head = f"{title(catalog)}, {VIEW_TITLES[view].lower()}"
-    return Scene(width, height, (Layer("head", said), *_fields(grid), *legends), head)
+    return Scene(width, height, (Layer("head", label), *_fields(grid), *legends), head)
 
 
 def slide_png(catalog: Catalog, view: View) -> bytes:

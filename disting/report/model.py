@@ -72,11 +72,11 @@ class Twin:
     @property
     def title(self) -> str:
         """The relation in words."""
-        said = {
+        words = {
             Relation.INDISTINGUISHABLE: "Indistinguishable",
             Relation.UNDECIDED: "Undecided over positive parameters",
         }
-        return said.get(self.relation, "It depends on the values")
+        return words.get(self.relation, "It depends on the values")
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,11 +136,11 @@ def model_page(catalog: Catalog, number: int) -> str:
     True
     """
     model, verdicts = model_of(catalog, number), dict(_verdicts(catalog, number))
-    seen = {other: relation_from(number, other, v) for other, v in verdicts.items()}
+    relations = {other: relation_from(number, other, v) for other, v in verdicts.items()}
     twins = [
         _twin(catalog, model, other, v)
         for other, v in verdicts.items()
-        if seen[other] is not Relation.DISTINGUISHABLE
+        if relations[other] is not Relation.DISTINGUISHABLE
     ]
     shown = [number, *(t.model.row.number for t in twins)]
     own_advice = advice(found_for(catalog), number)
@@ -165,7 +165,11 @@ def model_page(catalog: Catalog, number: int) -> str:
         free=catalog.record(number)["free"],
         basis=combinations(model.row.identifiability.basis),
         told_apart=reasons_apart(
-            {other: v for other, v in verdicts.items() if seen[other] is Relation.DISTINGUISHABLE}
+            {
+                other: v
+                for other, v in verdicts.items()
+                if relations[other] is Relation.DISTINGUISHABLE
+            }
         ),
         limits=limits(number, verdicts),
         advice=own_advice,
@@ -244,10 +248,10 @@ def _twin(catalog: Catalog, model: Model, other: int, verdict: Verdict) -> Twin:
     place = model.row.number
     low, high = sorted((place, other))
     twin, both = model_of(catalog, other), ways(place, other, verdict)
-    said = _positive(both, other, one_sided=verdict.relation is Relation.DISTINGUISHABLE)
+    sentence = _positive(both, other, one_sided=verdict.relation is Relation.DISTINGUISHABLE)
     relation = relation_from(place, other, verdict)
     return Twin(
-        twin, f"{low}-{high}", relation, said, correspondence(model.row.chain, twin.row.chain)
+        twin, f"{low}-{high}", relation, sentence, correspondence(model.row.chain, twin.row.chain)
     )
 
 
@@ -260,7 +264,7 @@ def _positive(
     own_share, other_share = (
         Share.UNKNOWN if finding is None else finding.share for finding in ways
     )
-    said = {
+    sentences = {
         Share.ALWAYS: (
             f"for all positive parameters here, A{other} has positive ones that do the same"
         ),
@@ -271,9 +275,9 @@ def _positive(
         Share.UNKNOWN: f"whether A{other} has positive parameters that do the same is not known",
     }
     if one_sided:
-        return f"{said[own_share]}; generic ones of A{other} have none here"
+        return f"{sentences[own_share]}; generic ones of A{other} have none here"
     back = {Share.ALWAYS: "for all", Share.SOMETIMES: "for some only", Share.UNKNOWN: "not known"}
-    return said[own_share] + (
+    return sentences[own_share] + (
         f"; the reverse {back[other_share]}"
         if other_share is not own_share and other_share in back
         else ""

@@ -141,7 +141,7 @@ def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
     low, high = sorted((number, other))
     named = replace(verdict, left=shown.label(low), right=shown.label(high))
     both = [shown.found.family[n - 1] for n in (low, high)]
-    said = shows(named, measurand(both))
+    sentence = shows(named, measurand(both))
     names = shown.cards[number - 1].model.name, shown.cards[other - 1].model.name
     command = ""
     if shown.numbered:
@@ -152,7 +152,7 @@ def _twin(shown: Listing, number: int, other: int, verdict: Verdict) -> Twin:
         shown.cards[other - 1],
         verdict.relation,
         f"{low}-{high}",
-        said,
+        sentence,
         _values(shown, number, other) if verdict.relation is Relation.INDISTINGUISHABLE else (),
         command,
         tuple(_parts(shown, number, other)),
@@ -299,7 +299,7 @@ def model_list_page(shown: Listing, *, site: bool = False, guide: bool = False) 
         shown=shown,
         compared=n_pairs,
         views=[(view, VIEW_TITLES[view]) for view in VIEWS],
-        told=list(_told(shown)) if n_pairs <= LISTED_PAIRS else [],
+        told=list(_rows_of_pairs(shown)) if n_pairs <= LISTED_PAIRS else [],
         held=share(card.drawing for card in shown.cards if card.drawing),
         payload=data,
         site=site,
@@ -325,7 +325,7 @@ def models_csv(shown: Listing) -> str:
     return out.getvalue()
 
 
-def _told(shown: Listing) -> Iterator[tuple[str, str, Verdict, str, str]]:
+def _rows_of_pairs(shown: Listing) -> Iterator[tuple[str, str, Verdict, str, str]]:
     """Every pair over positive parameters, with its relation there and over complex ones."""
     for left, right, verdict in shown.found.pairs(View.POSITIVE):
         other = shown.found.relation(left, right, View.EXACT)

@@ -209,10 +209,10 @@ def _able_of_list(listing: JudgedList) -> list[tuple[int, int, Share]]:
 def start_values_of(machine: Network) -> tuple[float, ...]:
     """Positive values as they are shown first, in the order of the page [kg, N/m, N s/m, 1]."""
     sizes = {kind: list(islice(cycle(of), len(machine.elements))) for kind, of in START.items()}
-    return tuple(sizes[kind][place] for _, kind, place in _listed(machine))
+    return tuple(sizes[kind][place] for _, kind, place in _list_values(machine))
 
 
-def _listed(machine: Network) -> list[tuple[str, str, int]]:
+def _list_values(machine: Network) -> list[tuple[str, str, int]]:
     """Name, kind and place of the values: masses, springs, dampers, and "i", ratios."""
     rank, joints = "mkd".index, list(_joints(machine))
     ordered = sorted(machine.elements, key=lambda e: rank(e.letter))
@@ -242,10 +242,10 @@ def _ends(e: Element) -> frozenset[int]:
 def drawing_of(machine: Network) -> dict[str, object]:
     """Data of a machine for the page; nodes are numbered from 1 without gaps."""
     number = dict(zip((0, *machine.nodes), count(), strict=False))
-    joints, values = _joints(machine), _listed(machine)
+    joints, values = _joints(machine), _list_values(machine)
     placed = places(machine)
     left, above, right, below = MARGINS
-    joined, held = _joined(machine), [max(ends) for ends in joints if 0 in ends]
+    joined, held = _list_joints(machine), [max(ends) for ends in joints if 0 in ends]
     grounds = [_ground(i, placed, joined) for i in held]
     x0, x1, y1 = (
         min(x for x, _ in (*placed.values(), *grounds)),
@@ -288,10 +288,10 @@ def places(machine: Network) -> dict[int, Place]:
         if 0 in rows
     )
     apart = (placed for placed in choices if len(set(placed.values())) == len(placed))
-    return min(apart, key=lambda placed: _cost(placed, _joined(machine)))
+    return min(apart, key=lambda placed: _cost(placed, _list_joints(machine)))
 
 
-def _joined(machine: Network) -> list[tuple[int, int]]:
+def _list_joints(machine: Network) -> list[tuple[int, int]]:
     """Pairs of masses that are joined, each once."""
     every = [edge for e in machine.elements for edge in edges(e) if 0 not in edge]
     return sorted({(min(edge), max(edge)) for edge in every})
@@ -299,7 +299,7 @@ def _joined(machine: Network) -> list[tuple[int, int]]:
 
 def _columns(machine: Network) -> dict[int, float]:
     """By distance from the force; unconnected masses come last."""
-    joined, entries = _joined(machine), dict[int, float]()
+    joined, entries = _list_joints(machine), dict[int, float]()
     starts = [i for p in machine.ports for i in (p.plus, p.minus) if i]
     for start in (*starts, *machine.nodes):
         if start in entries:

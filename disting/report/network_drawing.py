@@ -92,10 +92,10 @@ def series_parallel(network: Network) -> Part | None:
         (a, b, part), (c, d, other) = pair
         edges = [e for e in edges if e not in pair]
         if {a, b} == {c, d}:
-            edges.append((a, b, _joined("parallel", part, other)))
+            edges.append((a, b, _join_parts("parallel", part, other)))
             continue
         shared = ({a, b} & {c, d}).pop()
-        edges.append((a + b - shared, c + d - shared, _joined("series", part, other)))
+        edges.append((a + b - shared, c + d - shared, _join_parts("series", part, other)))
     a, b, whole = edges[0]
     if {a, b} != {port.plus, port.minus}:
         return None
@@ -119,7 +119,7 @@ def _pair(edges: list[Edge], kept: set[int]) -> tuple[Edge, Edge] | None:
     return None
 
 
-def _joined(form: str, *parts: Part) -> Part:
+def _join_parts(form: str, *parts: Part) -> Part:
     """Parts of the same form within become parts of the whole."""
     flat = [p for part in parts for p in (part.parts if part.form == form else (part,))]
     return Part(min(p.first for p in flat), None, form, tuple(flat))
@@ -169,7 +169,7 @@ def circuit_layers(whole: Part) -> Iterator[Layer]:
         yield Layer(name, (circle, Text(x + side, y, sign, 13, Ink.MUTED)))
 
 
-def _placed(part: Part, x: float, y: float) -> Iterator[tuple[Part, float, float]]:
+def _place_parts(part: Part, x: float, y: float) -> Iterator[tuple[Part, float, float]]:
     """The parts within, each with its left end and the height of its middle."""
     if part.form == "series":
         widths = [p.size[0] for p in part.parts]
@@ -184,7 +184,7 @@ def _placed(part: Part, x: float, y: float) -> Iterator[tuple[Part, float, float
 
 def _wires(part: Part, x: float, y: float) -> Iterator[Path | Circle]:
     """Upright lines at both ends of parallel parts, and lines from them to the parts."""
-    inside = list(_placed(part, x, y)) if part.parts else []
+    inside = list(_place_parts(part, x, y)) if part.parts else []
     if part.form == "parallel":
         right = x + part.size[0]
         rows = [row for *_, row in inside]
@@ -203,7 +203,7 @@ def _elements(part: Part, x: float, y: float) -> Iterator[Layer]:
         e, width = part.element, part.size[0]
         name = Text(x + width / 2, y - 16, e.value, 11, Ink.LABEL, Anchor.MIDDLE)
         yield Layer(e.value, (*draw_symbol(e.letter, Track((x, y), (x + width, y))), name))
-    for p, left, row in _placed(part, x, y) if part.parts else ():
+    for p, left, row in _place_parts(part, x, y) if part.parts else ():
         yield from _elements(p, left, row)
 
 
@@ -292,11 +292,11 @@ def _places(network: Network) -> dict[int, Place]:
 
 def _columns(start: int, near: dict[int, list[int]]) -> Iterator[list[int]]:
     """The nodes that are 0, 1, 2, .. joints away, each column in the order of the one before."""
-    seen, column = {start}, [start]
+    visited, column = {start}, [start]
     while column:
         yield column
-        column = list(dict.fromkeys(j for i in column for j in near[i] if j not in seen))
-        seen |= set(column)
+        column = list(dict.fromkeys(j for i in column for j in near[i] if j not in visited))
+        visited |= set(column)
 
 
 def _node(network: Network, i: int, place: Place) -> tuple[Shape, ...]:
@@ -348,12 +348,12 @@ def _element(e: Element, track: Track) -> tuple[Shape, ...]:
 
 def _names(e: Element, track: Track, aside: float) -> Iterator[Text]:
     """Where the name of an element can be: outside first, next to its middle, then elsewhere."""
-    said = f"{e.value} *{e.ratio}" if e.ratio else e.value
+    name = f"{e.value} *{e.ratio}" if e.ratio else e.value
     outer = -1.0 if aside <= 0 else 1.0
     for shift in (0.0, -0.1, 0.1, -0.2, 0.2, -0.3, 0.3):
         for side in (outer, -outer):
             for away in (15.0, 19.0):
-                yield _beside(said, track, track.length * (0.5 + shift), side, away)
+                yield _beside(name, track, track.length * (0.5 + shift), side, away)
 
 
 def _beside(said: str, track: Track, along: float, side: float, away: float) -> Text:
@@ -394,8 +394,8 @@ def _ends_of_ports(network: Network, places: dict[int, Place]) -> Iterator[tuple
         for p, sign in zip(ports, signs, strict=True):
             for i, minus in ((p.plus, ""), (p.minus, "-")):
                 if i in places and not (both and kind == "sensor"):
-                    said = (minus or "+") if both else minus + sign
-                    yield places[i], "port" if both else kind, said
+                    text = (minus or "+") if both else minus + sign
+                    yield places[i], "port" if both else kind, text
 
 
 def _arm_of_port(sheet: Sheet, at: Track, kind: str, sign: str, radius: float) -> None:

@@ -65,7 +65,7 @@ MOST = 400  # points
 def curve(x: Real, y: Real, title: str) -> str:
     """Stand-alone SVG of positive values over rising positive places, shape (n,) each."""
     at = np.unique(np.linspace(0, len(x) - 1, min(len(x), MOST)).astype(int))
-    across, up = (_scaled(np.log(values[at])) for values in (x, y))
+    across, up = (_scale_to_one(np.log(values[at])) for values in (x, y))
     points = tuple(
         (EDGE + (WIDTH - 2 * EDGE) * float(a), HEIGHT - EDGE - (HEIGHT - 2 * EDGE) * float(b))
         for a, b in zip(across, up, strict=True)
@@ -73,7 +73,7 @@ def curve(x: Real, y: Real, title: str) -> str:
     return svg(Scene(WIDTH, HEIGHT, (Layer("curve", (Path(points, Ink.SENSOR),)),), title))
 
 
-def _scaled(values: Real) -> Real:
+def _scale_to_one(values: Real) -> Real:
     """From 0 to 1; 1/2 where they are all the same."""
     span = float(np.ptp(values))
     return np.asarray((values - values.min()) / span if span else np.full(len(values), 0.5))
@@ -324,8 +324,8 @@ def _selection(shown: Selection) -> str:
         names, *readings = quantity_rows(shown)
         return block(line(shown.question, bold=True), table(names, readings))
     return block(
-        line(_selected(shown), bold=True),
-        line(_explained(shown)),
+        line(_describe_selected(shown), bold=True),
+        line(_describe_explanation(shown)),
         table(head, rows),
         more(len(shown.candidates), "candidates", "selection.candidates has them all."),
         line(COLUMNS),
@@ -333,13 +333,13 @@ def _selection(shown: Selection) -> str:
     )
 
 
-def _selected(shown: Selection) -> str:
+def _describe_selected(shown: Selection) -> str:
     if shown.selected is None:
         return "No candidate is admissible."
     return f"Selected: {reference(shown.selected.chain)}, {name(shown.selected.chain)}."
 
 
-def _explained(shown: Selection) -> str:
+def _describe_explanation(shown: Selection) -> str:
     explanation = shown.explanation
     which = reference(shown.described.chain)
     if explanation.noisy:
@@ -506,12 +506,12 @@ def _plot_response(shown: FrequencyResponse, ax: Any, style: Style) -> "tuple[Ax
 @drawn_on.register(Selection)
 def _plot_selection(shown: Selection, ax: Any, style: Style) -> "tuple[Axes, ...]":
     """Measured lines as dots, structures as lines, whose phases stay close to those of the dots."""
-    seen = shown.test
+    fitted_response = shown.test
     dots = {"linestyle": "none", "marker": ".", "color": "0.55", "label": "measured"}
-    panels = _plot_response(seen, ax, dots)
-    omega = np.geomspace(seen.omega[0], seen.omega[-1], POINTS)
+    panels = _plot_response(fitted_response, ax, dots)
+    omega = np.geomspace(fitted_response.omega[0], fitted_response.omega[-1], POINTS)
     chosen = [m.candidate for m in shown.members[:MOST_LINES]] or [shown.described]
-    beside = float(np.mean(np.unwrap(np.angle(seen.G))))
+    beside = float(np.mean(np.unwrap(np.angle(fitted_response.G))))
     for candidate in chosen:
         response = response_of(candidate, shown.task, omega)
         phase = np.unwrap(np.angle(response))

@@ -188,7 +188,7 @@ def _payload(
         order=catalog.family[1].sensor.order,
         chains=[chain.indices[1:] for chain in catalog.family],
         values=[start_values(chain) for chain in catalog.family],
-        known={row.number: said for row in catalog.rows if (said := unknown_parameters(row))},
+        known={row.number: unknown for row in catalog.rows if (unknown := unknown_parameters(row))},
         next=for_pairs(further),
         sketches={
             pair: [[s.box, s.parts, s.label] for s in sketches]

@@ -254,7 +254,7 @@ def _triangle(size: int) -> Iterator[tuple[int, int]]:
 
 def _entry(verdict: Verdict, what: str, reached: str) -> Entry:
     evidence = verdict.evidence
-    why = evidence.sentence("{L}", "{R}") if evidence else _undecided(verdict)
+    why = evidence.sentence("{L}", "{R}") if evidence else _reason_undecided(verdict)
     certainty = f"{capital(raise_exponents(verdict.sure))}." if evidence else ""
     formula = evidence.formula if evidence else ""
     both = verdict.inclusions
@@ -283,17 +283,17 @@ def _shares(verdict: Verdict) -> Iterator[str]:
         (verdict.right_positive, "{R}", "{L}"),
     ):
         if finding is not None:
-            seen = (
+            stated = (
                 f" ({finding.empirical.sentence})"
                 if finding.share is Share.SOMETIMES and finding.empirical
                 else ""
             )
             every = finding.evidence and finding.evidence.without_exception(Domain.POSITIVE)
             generic = "" if every else " generic"
-            yield SHARES[finding.share].format(text, other, generic=generic) + seen + "."
+            yield SHARES[finding.share].format(text, other, generic=generic) + stated + "."
 
 
-def _undecided(verdict: Verdict) -> str:
+def _reason_undecided(verdict: Verdict) -> str:
     # notes name models, and a name may look like a place for a name: a word joiner parts it
     phrase = "; ".join(verdict.notes).replace("{", "{\u2060")
     notes = f" ({phrase})" if phrase else ""

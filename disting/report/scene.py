@@ -197,13 +197,13 @@ def frame(layers: Iterable[Layer], title: str) -> Scene:
     left, top = (min(box[i] for box in boxes) - MARGIN for i in (0, 1))
     right, bottom = (max(box[i] for box in boxes) + MARGIN for i in (2, 3))
     moved = (
-        Layer(layer.name, tuple(_moved(shape, -left, -top) for shape in layer.shapes))
+        Layer(layer.name, tuple(_move_shape(shape, -left, -top) for shape in layer.shapes))
         for layer in drawn
     )
     return Scene(right - left, bottom - top, tuple(moved), title)
 
 
-def _moved(shape: Shape, dx: float, dy: float) -> Shape:
+def _move_shape(shape: Shape, dx: float, dy: float) -> Shape:
     if isinstance(shape, Path):
         return replace(shape, points=tuple((x + dx, y + dy) for x, y in shape.points))
     return replace(shape, x=shape.x + dx, y=shape.y + dy)
@@ -241,10 +241,10 @@ def number(value: float) -> str:
 
 def draw_layer(layer: Layer, palette: Palette) -> str:
     """A layer's elements, without the font and the round ends of lines that all layers share."""
-    return f'<g data-part="{escape(layer.name)}">{_styled(layer.shapes, palette)}</g>'
+    return f'<g data-part="{escape(layer.name)}">{_style_shapes(layer.shapes, palette)}</g>'
 
 
-def _styled(shapes: Iterable[Shape], palette: Palette) -> str:
+def _style_shapes(shapes: Iterable[Shape], palette: Palette) -> str:
     runs = groupby(shapes, key=lambda shape: _style(shape, palette))
     return "".join(f"<g {style}>{''.join(map(_element, run))}</g>" for style, run in runs)
 

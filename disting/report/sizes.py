@@ -146,15 +146,15 @@ def limit(verdict: Verdict) -> int:
 
 
 def _entry(verdict: Verdict) -> tuple[int, str, str]:
-    said = SENTENCES.get(limit(verdict), "")
+    sentence = SENTENCES.get(limit(verdict), "")
     if _masses(verdict.left) == _masses(verdict.right):
         inclusions = verdict.inclusions
-        said = (
+        sentence = (
             ""
             if inclusions is None
             else f"Over complex parameters: {inclusions.sentence('{L}', '{R}')}"
         )
-    return limit(verdict), said, _reason(verdict)
+    return limit(verdict), sentence, _reason(verdict)
 
 
 def between(catalog: SizesCatalog) -> Iterator[Between]:
@@ -208,13 +208,13 @@ def _reason(verdict: Verdict) -> str:
         )
     finding = verdict.inclusions.closure
     return (
-        finding.evidence.sentence("{L}", "{R}") + _bound(finding)
+        finding.evidence.sentence("{L}", "{R}") + _error_bound(finding)
         if finding.evidence
         else _open(finding)
     )
 
 
-def _bound(finding: InclusionFinding) -> str:
+def _error_bound(finding: InclusionFinding) -> str:
     if finding.certainty is not Certainty.BOUNDED:
         return ""
     return f" ({raise_exponents(finding.certainty.in_words(finding.safety))})"

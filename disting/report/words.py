@@ -87,12 +87,12 @@ def headline(catalog: "Catalog") -> str:
         f"{plural(len(catalog.family), 'model')}, {plural(sum(counts.values()), 'pair')}, over"
         " positive parameters"
     )
-    said = (
+    words = (
         f"{n} {SAID[relation]}"
         for relation, n in counts.items()
         if n or relation is not Relation.SOMETIMES
     )
-    return f"{head}: {', '.join(said)}"
+    return f"{head}: {', '.join(words)}"
 
 
 def totals(decided: DecidedModels, view: View = View.POSITIVE) -> dict[Relation, int]:

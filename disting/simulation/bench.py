@@ -297,7 +297,7 @@ def _record(
     if any(sensor):
         source = np.random.default_rng([bench.seed, 1, *sensor])
         noise[1] = source.standard_normal(noise.shape[1])
-    coloured = _coloured(noise[1], bench, source) if bench.noise_slope else noise[1]
+    coloured = _colour_noise(noise[1], bench, source) if bench.noise_slope else noise[1]
     recorded = output + bench.output_noise * coloured
     is_circuit = isinstance(model, Network) and model.sort is Sort.CIRCUIT
     signals = IMPEDANCE if is_circuit else (Signal("input"), Signal("output"))
@@ -348,7 +348,7 @@ def _friction(
     return [friction.get(node, Friction()) for node in nodes]
 
 
-def _coloured(white: Real, bench: Bench, source: np.random.Generator) -> Real:
+def _colour_noise(white: Real, bench: Bench, source: np.random.Generator) -> Real:
     """White noise, shape (n,), with the density of the bench and variance 1: half of a signal of
     twice its length, so that its end does not lead to its beginning.
     """

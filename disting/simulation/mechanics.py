@@ -249,7 +249,7 @@ def step(
             f"{steps * samples * periods} steps are too many; raise the speed of the friction, or"
             " simulate less"
         )
-    push = np.outer(_oversampled(force, samples, 2 * steps), act)
+    push = np.outer(_oversample(force, samples, 2 * steps), act)
 
     def acceleration(x: Real, v: Real, f: Real) -> Real:
         """(f - D v - K x - F_c tanh(v/v_s)) / M."""
@@ -302,7 +302,7 @@ def _inverse(m: Matrices) -> Real:
         ) from None
 
 
-def _oversampled(spectrum: Complex, samples: int, factor: int) -> Real:
+def _oversample(spectrum: Complex, samples: int, factor: int) -> Real:
     """The trigonometric polynomial between its samples, `factor` values a sample."""
     wide = np.zeros(samples * factor // 2 + 1, dtype=complex)
     wide[: len(spectrum)] = spectrum * factor

@@ -53,7 +53,7 @@ class Noise:
         if not self.correlation:
             return scaled
         halves = np.split(scaled, 2)
-        return np.concatenate([_carried(half, self.correlation) for half in halves])
+        return np.concatenate([_carry_rows(half, self.correlation) for half in halves])
 
     @property
     def effective(self) -> float:
@@ -127,7 +127,7 @@ def correlation(residual: Real) -> float:
     return min(correlation, MOST) if correlation > SIGNIFICANT / sqrt(residual.size) else 0.0
 
 
-def _carried(rows: Real, r: float) -> Real:
+def _carry_rows(rows: Real, r: float) -> Real:
     """L' rows, with L L' = r^|i-j|: what each independent innovation of the chain of lines
     moves.
     """

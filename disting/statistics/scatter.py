@@ -292,7 +292,7 @@ def scatter(measured: FrequencyResponse, fitted: Sequence[Complex] = ()) -> Scat
     (n_f,) each.
     """
     if measured.noise is not None and np.any(measured.noise > 0):
-        return _stated(measured, measured.noise, fitted)
+        return _scatter_as_stated(measured, measured.noise, fitted)
     if measured.coherence is not None and np.any(measured.coherence < 1):
         squared = np.clip(measured.coherence, 1e-6, 1 - 1e-6)
         shape = ((1 - squared) / squared * np.abs(measured.G) ** 2)[:, None]
@@ -323,16 +323,16 @@ def _from_neighbours(
     plain = contrasts(measured.omega, measured.G)
     columns = shapes(plain.size)
     pairs = [(columns @ quietest(plain.expected(columns), plain.power), plain.size)]
-    for seen in (contrasts(measured.omega, measured.G, other) for other in fitted):
-        columns = shapes(seen.size)
-        pairs.append((columns @ coefficients(seen.expected(columns), seen.power), seen.size))
+    for own in (contrasts(measured.omega, measured.G, other) for other in fitted):
+        columns = shapes(own.size)
+        pairs.append((columns @ coefficients(own.expected(columns), own.power), own.size))
     levels = [float(np.mean(np.log(np.maximum(v, (LEAST * size) ** 2)))) for v, size in pairs]
-    variance, size = pairs[_preferred(levels)]
+    variance, size = pairs[_choose_level(levels)]
     rho = np.sqrt(variance / 2) / size
     return Scatter(np.maximum(rho, LEAST), size, source, freedom(measured.omega))
 
 
-def _preferred(levels: Sequence[float]) -> int:
+def _choose_level(levels: Sequence[float]) -> int:
     """Index of the level to use, logarithms of variances without and with fitted responses: the
     smallest with one, unless that without is smaller by far.
     """
@@ -340,33 +340,37 @@ def _preferred(levels: Sequence[float]) -> int:
     return best if levels[best] <= levels[0] + log(WORSE) else 0
 
 
-def _stated(measured: FrequencyResponse, deviation: Real, fitted: Sequence[Complex]) -> Scatter:
+def _scatter_as_stated(
+    measured: FrequencyResponse, deviation: Real, fitted: Sequence[Complex]
+) -> Scatter:
     """From standard deviations of the noise and of the distortion in the data, against contrasts
     where candidates are fitted.
     """
     each = [contrasts(measured.omega, measured.G, other) for other in (None, *fitted)]
-    seen = each[
-        _preferred([log(max(float(np.median(one_way.power)), TINY**2)) for one_way in each])
+    used = each[
+        _choose_level([log(max(float(np.median(one_way.power)), TINY**2)) for one_way in each])
     ]
     floor = float(np.median(deviation[deviation > 0])) ** 2
     power = np.maximum(deviation**2, 1e-6 * floor)
     nu = measured.freedom or freedom_by_jumps(measured.omega, power)
-    variance, prior = shrunk(power, nu, _sources(measured, seen.size))
+    variance, prior = shrunk(power, nu, _sources(measured, used.size))
     sure, known_from = max(len(power) * nu, prior), "the standard deviations of the data"
     if measured.nonlinear is not None:
         # about as many lines tell of the distortion as it distorts
         variance, sure = variance + measured.nonlinear**2, min(sure, 2.0 * len(power))
         known_from += " and their distortion"
-    own = Scatter(np.maximum(np.sqrt(variance / 2) / seen.size, LEAST), seen.size, known_from, sure)
-    return _checked(own, variance, seen, measured) if fitted else own
+    own = Scatter(np.maximum(np.sqrt(variance / 2) / used.size, LEAST), used.size, known_from, sure)
+    return _check_scatter(own, variance, used, measured) if fitted else own
 
 
-def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Scatter:
+def _check_scatter(
+    own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyResponse
+) -> Scatter:
     """Standard deviations checked by neighbouring lines."""
     lines_free = freedom(measured.omega)
     level = _excess(seen, variance) + 1
     if level > f_distribution.isf(SURE, lines_free, own.freedom):
-        widened = _widened(variance, seen, measured)
+        widened = _widen_variance(variance, seen, measured)
         if widened is None:
             return own
         return replace(
@@ -389,12 +393,12 @@ def _checked(own: Scatter, variance: Real, seen: Contrasts, measured: FrequencyR
     return own
 
 
-def _widened(variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Real | None:
+def _widen_variance(variance: Real, seen: Contrasts, measured: FrequencyResponse) -> Real | None:
     """Variances with what makes neighbouring lines jump: distortion, a share tau of each line, or
     what the sources of a bench add, such as the steps of an encoder, which repeat with the
     excitation too, where these describe the jumps far better. None where neither does.
     """
-    tau = _balanced(lambda tau: _excess(seen, variance + 2 * (tau * seen.size) ** 2))
+    tau = _balance_tau(lambda tau: _excess(seen, variance + 2 * (tau * seen.size) ** 2))
     distorted = variance + 2 * (tau * seen.size) ** 2
     columns = _sources(measured, seen.size)
     columns = np.column_stack([variance, columns])
@@ -420,7 +424,7 @@ def _excess(seen: Contrasts, variance: Real) -> float:
     return float(ratio[kept].mean()) / kept_mean(LARGEST_LEFT_OUT) - 1
 
 
-def _balanced(excess: Callable[[float], float]) -> float:
+def _balance_tau(excess: Callable[[float], float]) -> float:
     """The tau at which a falling excess is zero."""
     return MOST_TAU if excess(MOST_TAU) > 0 else float(brentq(excess, 0.0, MOST_TAU, xtol=1e-6))
 
@@ -439,7 +443,7 @@ def change(
     sure = f_distribution.isf(SURE, 2 * len(both), min(own.freedom, other_scatter.freedom))
     if np.mean(power / both) <= sure:
         return 0.0
-    return _balanced(lambda tau: float(np.mean(power / (both + 4 * tau**2))) - 1)
+    return _balance_tau(lambda tau: float(np.mean(power / (both + 4 * tau**2))) - 1)
 
 
 def widen(own: Scatter, tau: float) -> Scatter:

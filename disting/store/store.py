@@ -73,11 +73,13 @@ def modules_of(module: str) -> tuple[str, ...]:
     sources, modules, new = _sources(), set[str](), {module}
     while new:
         modules |= new
-        new = {name for old in new for name in _imported(sources[old]) if name in sources} - modules
+        new = {
+            name for old in new for name in _list_imports(sources[old]) if name in sources
+        } - modules
     return tuple(sorted(modules))
 
 
-def _imported(source: str) -> Iterator[str]:
+def _list_imports(source: str) -> Iterator[str]:
     """Names that may be modules: what is imported from, and with what is imported from it (a
     name may be a module).
     """
@@ -460,12 +462,12 @@ class Store(contextlib.AbstractContextManager["Store", None]):
         with self._lock:
             while self._usable:
                 try:
-                    return operation(self._connected())
+                    return operation(self._connect())
                 except (sqlite3.DatabaseError, UnicodeDecodeError, OSError) as error:
                     repaired = self._recover(error, deadline, repaired)
         return nothing
 
-    def _connected(self) -> sqlite3.Connection:
+    def _connect(self) -> sqlite3.Connection:
         """A connection to the file that the path holds now."""
         while (current := identity(self._path)) == MISSING:
             replace(self._path, MISSING, self._wait)

@@ -53,13 +53,13 @@ def decisions(
             _each(result, open_pairs, Stage.FIBRE, lambda a, b: a.exact(b))
             continue
         r = Representation(stage)
-        asked = open_pairs & _are_asked(stage, subjects)
-        active = np.flatnonzero(asked.any(axis=0) | asked.any(axis=1))
+        open_ones = open_pairs & _are_asked(stage, subjects)
+        active = np.flatnonzero(open_ones.any(axis=0) | open_ones.any(axis=1))
         prefetch([subjects[int(i)] for i in active], r, markov_count(r, query, subjects))
-        before = asked.copy()
-        _necessary(result, asked, r, active)
-        _sufficient(result, asked, r)
-        open_pairs &= asked | ~before
+        before = open_ones.copy()
+        _necessary(result, open_ones, r, active)
+        _sufficient(result, open_ones, r)
+        open_pairs &= open_ones | ~before
     if query.tells_inclusion:
         _inclusions(result, ask)
         _positive(result, ask)
@@ -70,8 +70,8 @@ def decisions(
 
 def _are_asked(stage: Stage, subjects: Sequence[AnySide]) -> NDArray[np.bool_]:
     """The pairs that have such a summary: Markov parameters are those of functions of s."""
-    asked = np.array([stage is Stage.TF or s.in_s for s in subjects], bool)
-    return np.asarray(asked[:, None] & asked[None, :])
+    flags = np.array([stage is Stage.TF or s.in_s for s in subjects], bool)
+    return np.asarray(flags[:, None] & flags[None, :])
 
 
 def _pairs(result: Decisions, where: NDArray[np.bool_]) -> list[tuple[AnySide, AnySide]]:
@@ -105,9 +105,9 @@ def _positive(result: Decisions, ask: Ask) -> None:
         subjects[0].prepare_positive([(subjects[i], subjects[j]) for i, j in ways], ask)
     for i, j in ways:
         image = result.inclusion(min(i, j), max(i, j), Sense.IMAGE)
-        said = said_of(subjects[i].positive(subjects[j]), image)
-        if said is not None:
-            result.shares[i, j] = said
+        share = said_of(subjects[i].positive(subjects[j]), image)
+        if share is not None:
+            result.shares[i, j] = share
 
 
 def _is_asked(result: Decisions, i: int, j: int) -> bool:

@@ -61,13 +61,15 @@ def decide(left: AnySide, right: AnySide, query: Query) -> Verdict:
     if domain is Domain.COMPLEX or verdict.relation is not Relation.INDISTINGUISHABLE:
         return replace(verdict, domain=domain)
     step = Step(Stage.PARAMETERS, over_domain(left, right, domain, verdict))
-    said = (
+    decided = (
         undecided_verdict(left, right, (open_note(step.finding.note),), domain)
         if step.relation is Relation.UNDECIDED
         else verdict_of(left, right, step, domain)
     )
-    said = replace(said, image=verdict.image, closure=verdict.closure)
-    return replace(said, left_positive=verdict.left_positive, right_positive=verdict.right_positive)
+    decided = replace(decided, image=verdict.image, closure=verdict.closure)
+    return replace(
+        decided, left_positive=verdict.left_positive, right_positive=verdict.right_positive
+    )
 
 
 def over_domain(left: AnySide, right: AnySide, domain: Domain, equal: Verdict | None) -> Finding:

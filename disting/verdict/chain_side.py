@@ -173,8 +173,8 @@ class ComparedChain(Side[Chain]):
         if domain is Domain.POSITIVE:
             finding: Finding = found_at_once(POSITIVE_CHAINS.at_once, self, other)
             return finding
-        asked = Answerers(self._positive, self._lacking, self._identifiability)
-        return real_finding(self.canonical.chain, other.canonical.chain, asked)
+        answerers = Answerers(self._positive, self._lacking, self._identifiability)
+        return real_finding(self.canonical.chain, other.canonical.chain, answerers)
 
     def inclusions(self, other: "ComparedChain") -> Inclusions:
         """Both statements on two chains of unequal rank."""
@@ -212,9 +212,9 @@ class ComparedChain(Side[Chain]):
         ask(IDENTIFIABILITY, [(chain,) for pair in counted for chain in _canonical(*pair)])
         ways = [(pair[0], witness_ways(*_canonical(*pair))) for pair in pairs]
         for k in range(2):
-            asked = [(s, way[k]) for s, way in ways if len(way) > k]
-            ask(LACKING, [chains for _, chains in asked])
-            none = {chains for s, chains in asked if not s.answerer(LACKING, chains, s.settings)}
+            tasks = [(s, way[k]) for s, way in ways if len(way) > k]
+            ask(LACKING, [chains for _, chains in tasks])
+            none = {chains for s, chains in tasks if not s.answerer(LACKING, chains, s.settings)}
             ways = [(s, way) for s, way in ways if len(way) > k and way[k] in none]
 
     @classmethod

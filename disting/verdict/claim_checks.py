@@ -41,7 +41,7 @@ class Claim:
 Check = Callable[[Claim], Iterator[str]]
 
 
-def _unfounded(claim: Claim) -> Iterator[str]:
+def _find_unfounded(claim: Claim) -> Iterator[str]:
     v = claim.verdict
     if v.evidence is None:
         return
@@ -61,7 +61,7 @@ def _untrue(claim: Claim) -> Iterator[str]:
         yield f"{claim.where}the evidence is not true of these models"
 
 
-def _ungraded(claim: Claim) -> Iterator[str]:
+def _check_grade(claim: Claim) -> Iterator[str]:
     """Check that the settings find evidence of this kind with this certainty."""
     v = claim.verdict
     if v.evidence is None:
@@ -85,7 +85,7 @@ def _again(claim: Claim, evidence: Evidence) -> Claimed | None:
         if v.decided_by == EXACT.name
         else over_domain(claim.sides.left, claim.sides.right, v.domain, claim.equal)
     )
-    return None if finding is None else _told(finding)
+    return None if finding is None else _claim_of(finding)
 
 
 def _text(evidence: Evidence) -> str:
@@ -101,10 +101,10 @@ def _condition_again(claim: Claim) -> Claimed:
     proven = v.certainty is Certainty.PROVEN and again.certainty is Certainty.BOUNDED
     if proven:
         again = prove_again(again, left, right, SECONDS)
-    return _told(again) if again.representation is v.representation else (None, 0, None)
+    return _claim_of(again) if again.representation is v.representation else (None, 0, None)
 
 
-def _told(source: Verdict | Finding) -> Claimed:
+def _claim_of(source: Verdict | Finding) -> Claimed:
     return source.certainty, source.safety, source.evidence
 
 
@@ -113,7 +113,7 @@ def _false_inclusions(claim: Claim) -> Iterator[str]:
     v, left, right, where = claim.verdict, claim.sides.left, claim.sides.right, claim.where
     both = v.inclusions
     if both is None:
-        yield from (f"{where}{said}" for said in _without_evidence(v, left.rank == right.rank))
+        yield from (f"{where}{fault}" for fault in _without_evidence(v, left.rank == right.rank))
         return
     if (v.image, v.closure) != (both.image.inclusion, both.closure.inclusion):
         yield f"{where}the inclusion is not that of its evidence"
@@ -174,9 +174,9 @@ def _false_shares(claim: Claim) -> Iterator[str]:
 
 
 CHECKS: dict[str, Check] = {
-    "that the relation follows from the evidence": _unfounded,
+    "that the relation follows from the evidence": _find_unfounded,
     "the evidence": _untrue,
-    "certainty and points": _ungraded,
+    "certainty and points": _check_grade,
     LIMITS: _false_inclusions,
     SHARES: _false_shares,
 }

@@ -182,11 +182,11 @@ class _Work:
         """Pairs of representatives that share all columns and are not refuted."""
         roots = [i for i in range(len(self.subjects)) if self.buckets.classes.root(i) == i]
         apart = {
-            _sorted(self.buckets.classes.root(a), self.buckets.classes.root(b))
+            _sort_pair(self.buckets.classes.root(a), self.buckets.classes.root(b))
             for a, b in self.refuted
         }
         pairs = (
-            _sorted(i, j)
+            _sort_pair(i, j)
             for bucket in self.buckets.shared(roots)
             for i, j in combinations(bucket, 2)
         )
@@ -223,9 +223,9 @@ def _invert(work: _Work, executor: Executor | None, progress: Progress) -> None:
     parameters of 1/G.
     """
     wanted = sorted({i for pair in work.open_pairs() for i in pair})
-    asked = [(work.subjects[i].chain,) for i in wanted]
-    work.engine.answer_all(INVERSELY, asked, executor=executor, progress=progress)
-    inverses = [work.engine.answer(INVERSELY, chains, work.engine.settings) for chains in asked]
+    tasks = [(work.subjects[i].chain,) for i in wanted]
+    work.engine.answer_all(INVERSELY, tasks, executor=executor, progress=progress)
+    inverses = [work.engine.answer(INVERSELY, chains, work.engine.settings) for chains in tasks]
     values: dict[int, Hashable] = {}
     for i, p in zip(wanted, inverses, strict=True):
         values[i] = p.matroid if isinstance(p.matroid, NoMatroid) else (p.form, p.rank, p.matroid)
@@ -237,11 +237,11 @@ def _decide(
 ) -> None:
     """Ask about all open pairs of representatives, and take over what is decided."""
     pairs = work.open_pairs()
-    asked = [work.subjects[i].pair(work.subjects[j]) for i, j in pairs]
-    work.engine.answer_all(question, asked, executor=executor, progress=progress)
-    for (i, j), chains in zip(pairs, asked, strict=True):
+    tasks = [work.subjects[i].pair(work.subjects[j]) for i, j in pairs]
+    work.engine.answer_all(question, tasks, executor=executor, progress=progress)
+    for (i, j), chains in zip(pairs, tasks, strict=True):
         work.take(i, j, work.engine.answer(question, chains, work.engine.settings))
 
 
-def _sorted(i: int, j: int) -> tuple[int, int]:
+def _sort_pair(i: int, j: int) -> tuple[int, int]:
     return (i, j) if i < j else (j, i)

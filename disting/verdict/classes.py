@@ -151,7 +151,7 @@ class Classes:
         """
         bases = [self._bases[k] for k in (i, j)]
         mine, yours = (frozenset(self.chains[k].ground_dampers) for k in (i, j))
-        for base, own in self._turned(bases[1], yours):
+        for base, own in self._turn_chain(bases[1], yours):
             if base == bases[0]:
                 if mine <= own or own <= mine:
                     return SUBMODEL.name
@@ -160,7 +160,7 @@ class Classes:
         return EXACT.name
 
     @staticmethod
-    def _turned(base: Chain, masses: Masses) -> Iterator[tuple[Chain, Masses]]:
+    def _turn_chain(base: Chain, masses: Masses) -> Iterator[tuple[Chain, Masses]]:
         """The chain itself, and mirrored where force and sensor of the free row sit at its
         centre.
         """

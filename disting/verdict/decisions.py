@@ -150,7 +150,7 @@ class Decisions(NotebookTable):
             return self.part.decisions.verdict(*inner)
         left, right = self.subjects[i], self.subjects[j]
         if (i, j) in self.steps:
-            return self._included(
+            return self._include(
                 i, j, verdict_of(left, right, self.steps[i, j], self.query.view.domain)
             )
         rule, where = self.rule(i, j), STAGES[self.representation[i, j]]
@@ -159,11 +159,11 @@ class Decisions(NotebookTable):
         finding = GRADES[rule].check(self.profile(where, i), self.profile(where, j))
         if (i, j) in self.proven:
             finding = replace(finding, certainty=Certainty.PROVEN, safety=0)
-        return self._included(
+        return self._include(
             i, j, verdict_of(left, right, Step(where, finding), self.query.view.domain)
         )
 
-    def _included(self, i: int, j: int, verdict: Verdict) -> Verdict:
+    def _include(self, i: int, j: int, verdict: Verdict) -> Verdict:
         image, closure = (self.inclusion(i, j, sense) for sense in Sense)
         left_share, right_share = self.shares.get((i, j)), self.shares.get((j, i))
         both = self.inclusions.get((i, j))

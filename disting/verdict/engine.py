@@ -250,7 +250,7 @@ class Engine:
         each batch stored at once.
         """
         keys = {profile_key(s, r, count, self.settings): s for s in sorted(what, key=full_text)}
-        self.memo |= self._stored([key for key in keys if key not in self.memo])
+        self.memo |= self._load_profiles([key for key in keys if key not in self.memo])
         missing = [key for key in keys if key not in self.memo]
         done = len(keys) - len(missing)
         absent = [keys[k] for k in missing]
@@ -287,7 +287,7 @@ class Engine:
             done += 1
             progress(question.name, done, len(keys))
 
-    def _stored(self, keys: list[str]) -> dict[str, Profile]:
+    def _load_profiles(self, keys: list[str]) -> dict[str, Profile]:
         return {key: profile_from_json(text) for key, text in self.store.get_many(keys).items()}
 
 

@@ -49,11 +49,11 @@ def identify(
         for i, s in enumerate(subjects)
         if chains[i] is None and not isinstance(s, Chain)
     }
-    for question, asked in (
+    for question, tasks in (
         (IDENTIFIABILITY, [(form,) for form in forms]),
         (PARAMETERS, [(model,) for model in models.values()]),
     ):
-        engine.answer_all(question, asked, executor=executor, progress=progress)
+        engine.answer_all(question, tasks, executor=executor, progress=progress)
     looked_for = [_asked_of_chain(form, engine) for form in forms]
     looked_for += [
         model

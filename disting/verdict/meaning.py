@@ -58,12 +58,12 @@ def meaning_sentence(verdict: Verdict, what: str = RESPONSE, everywhere: bool = 
         case None:
             return _not_known(verdict, what)
         case _:
-            said = f"One of {left} and {right} has {what}s that the other never has"
+            text = f"One of {left} and {right} has {what}s that the other never has"
             # one that is a limit of the other comes as close as one likes
             if verdict.closure is not Inclusion.NEITHER:
-                return f"{said}."
+                return f"{text}."
             return (
-                f"{said}: fitted to such a{_n(what)} {what}, the wrong one leaves an error however"
+                f"{text}: fitted to such a{_n(what)} {what}, the wrong one leaves an error however"
                 " well it is measured."
             )
 
@@ -112,21 +112,21 @@ def _not_known(verdict: Verdict, what: str) -> str:
     """Sentence on the consequences of an undecided verdict for a measurement, and on what may
     decide after all.
     """
-    said = f"Not known: a measurement may or may not tell {verdict.left} and {verdict.right} apart."
+    text = f"Not known: a measurement may or may not tell {verdict.left} and {verdict.right} apart."
     if verdict.notes[:1] and verdict.notes[0].startswith(open_note("")):
         return (
-            f"{said} Some values, perhaps negative ones, give both the same {what}; whether"
+            f"{text} Some values, perhaps negative ones, give both the same {what}; whether"
             f" {verdict.domain} ones do is open. What helps: the values of your own machine;"
             " 'disting equivalents' with --set lists what else does the same with positive values."
         )
     if any(note.startswith(EXACT.in_words()) for note in verdict.notes):
         return (
-            f"{said} They are too large for the exact decision, or it would take too long. What"
+            f"{text} They are too large for the exact decision, or it would take too long. What"
             " helps: ask smaller ones of the same kind (fewer elements; of machines also without"
             " dampers), and take the answer as theirs alone."
         )
     return (
-        f"{said} What was asked does not decide it. What helps: let everything decide, without"
+        f"{text} What was asked does not decide it. What helps: let everything decide, without"
         " --conditions and --representation, where they were given."
     )
 

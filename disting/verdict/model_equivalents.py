@@ -114,7 +114,7 @@ def _sets(
     """All values of small models, those by synthesis first; of larger ones the positive ones by
     synthesis, where these are all, or nothing else is found.
     """
-    synthesized = _synthesized(model, values, other)
+    synthesized = _synthesize_values(model, values, other)
     is_large = len(other.parameters) > MOST_SOLVED
     if is_large and synthesized is not None and synthesized.complete:
         return None, synthesized
@@ -127,7 +127,7 @@ def _sets(
     return (None, synthesized) if is_open else (solved, None)
 
 
-def _synthesized(
+def _synthesize_values(
     model: AnyModel, values: Mapping[str, object], other: AnyModel
 ) -> Synthesis | None:
     first, second = on_one_variable([model, other])

@@ -160,12 +160,12 @@ class _Work:
 
     def asked(self, chosen: Iterable[int]) -> list[list[int]]:
         """Roots by buckets, where those hold more than one structure."""
-        asked = []
+        tasks = []
         for bucket in self.buckets.shared(chosen):
             if len({self.spots[s][0] for s in bucket}) > 1:
                 roots = list(dict.fromkeys(map(self.buckets.classes.root, bucket)))
-                asked += [roots] if len(roots) > 1 else []
-        return asked
+                tasks += [roots] if len(roots) > 1 else []
+        return tasks
 
     def join_known(self, profiles: dict[int, Profile]) -> None:
         """Free choice and renamings."""
@@ -187,12 +187,12 @@ class _Work:
         rounds = self.asked(s for s, g in enumerate(self.gains) if g is Gain.NEW)
         while rounds:
             pairs = [(bucket[0], s) for bucket in rounds for s in bucket[1:]]
-            models = {(a, b): self._asked(a, b) for a, b in pairs}
+            models = {(a, b): self._order_pair(a, b) for a, b in pairs}
             self.engine.answer_all(
                 QUICKLY, list(models.values()), executor=executor, progress=progress
             )
-            for (a, b), asked in models.items():
-                finding = self.engine.answer(QUICKLY, asked, self.engine.settings)
+            for (a, b), questions in models.items():
+                finding = self.engine.answer(QUICKLY, questions, self.engine.settings)
                 finding = resting_on_ranks(finding, profiles[a], profiles[b])
                 if finding.outcome is Outcome.HOLDS:
                     self.unite(a, b)
@@ -205,7 +205,7 @@ class _Work:
             ]
             rounds = [b for b in rest if len({self.spots[s][0] for s in self._members(b)}) > 1]
 
-    def _asked(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
+    def _order_pair(self, a: int, b: int) -> tuple[MeasuredChain, MeasuredChain]:
         """Both machines, in an order that does not depend on that of the structures."""
         low, high = sorted((self.sides[s].measured for s in (a, b)), key=full_text)
         return low, high

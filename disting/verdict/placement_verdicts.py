@@ -151,13 +151,13 @@ def everywhere_file(
     ('surely', [{'2': 1}, {'2': 2}, {'2': 3}])
     """
     a, b = models_of_names(left, right, damped, quantity)
-    asked, (query, engine) = named_all(also), asked_of(query, engine, domain)
+    experiments, (query, engine) = named_all(also), asked_of(query, engine, domain)
     files = [
         {"places": {str(left_place): right_place for left_place, right_place in way}}
         | verdict_file(a, b, experiments=pairs, query=query, engine=engine)
-        for way, pairs in placements(a, b, asked)
+        for way, pairs in placements(a, b, experiments)
     ]
-    return _whole(asked, files)
+    return _whole(experiments, files)
 
 
 def read_everywhere(data: Mapping[str, Any]) -> tuple[StoredVerdict, ...]:
@@ -175,11 +175,11 @@ def difference_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdic
     place the experiments.
     """
     try:
-        asked = [_named(each) for each in data["also"][: MOST_EXPERIMENTS + 1]]
+        experiments = [_read_experiment(each) for each in data["also"][: MOST_EXPERIMENTS + 1]]
         a, b = stored[0].models
-        if len(asked) > MOST_EXPERIMENTS:
+        if len(experiments) > MOST_EXPERIMENTS:
             return "also"
-        ways = list(placements(a, b, asked))
+        ways = list(placements(a, b, experiments))
     except (*DAMAGED, DistingError) as reason:
         return f"the experiments: {reason}"
     files = data["verdicts"]
@@ -191,7 +191,7 @@ def difference_everywhere(data: Mapping[str, Any], stored: Sequence[StoredVerdic
     places = [{str(left_place): right_place for left_place, right_place in way} for way, _ in ways]
     if [each["places"] for each in files] != places:
         return "places"
-    again = _whole(asked, files)
+    again = _whole(experiments, files)
     if not VERSION.fullmatch(str(data.get("program"))):
         return "program"
     unknown = [name for name in data if name not in again]
@@ -219,7 +219,7 @@ def _whole(asked: Sequence[PlacedExperiment], files: Sequence[dict[str, Any]]) -
     }
 
 
-def _named(data: Mapping[str, Any]) -> PlacedExperiment:
+def _read_experiment(data: Mapping[str, Any]) -> PlacedExperiment:
     places = tuple(
         (int(left_place), int(right_place)) for left_place, right_place in data["places"]
     )

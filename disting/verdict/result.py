@@ -265,8 +265,8 @@ def _models(left: str, right: str, premises: tuple[Premise | None, Premise | Non
     """
     if premises[0] == premises[1]:
         return f"{left} and {right}" + (f", {premises[0]}," if premises[0] else "")
-    said = zip((left, right), premises, strict=True)
-    return " and ".join(n if k is None or n.endswith(f"({k})") else f"{n} ({k})" for n, k in said)
+    named = zip((left, right), premises, strict=True)
+    return " and ".join(n if k is None or n.endswith(f"({k})") else f"{n} ({k})" for n, k in named)
 
 
 def _premise_to(premise: Premise | None) -> dict[str, object]:

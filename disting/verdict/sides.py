@@ -97,7 +97,7 @@ def sides_of(
     plain = plain_sides(left, right, engine)
     if not experiments:
         return Sides(*plain)
-    a, b = measured = _measured(left, right, experiments)
+    a, b = measured = _measure_both(left, right, experiments)
     silent = [i for i in a.silent if i in b.silent]
     telling = [i for i in range(len(experiments)) if i not in silent]
     notes = [f"nothing is learned from experiment {i + 1}: its sensor never moves" for i in silent]
@@ -120,7 +120,7 @@ def _sides_under(
     return engine.general_subjects(models, names, [m.text for m in measured])
 
 
-def _measured(
+def _measure_both(
     left: Chain | AnyModel,
     right: Chain | AnyModel,
     experiments: Sequence[tuple[Experiment, Experiment]],
@@ -160,11 +160,11 @@ def both_places(
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]],
 ) -> tuple[tuple[Experiment, Experiment], ...]:
     """Each once, for the left and for the right model."""
-    asked = [e if isinstance(e, tuple) else (e, e) for e in of_type(experiments, Iterable, NAMED)]
-    for pair in asked:
+    pairs = [e if isinstance(e, tuple) else (e, e) for e in of_type(experiments, Iterable, NAMED)]
+    for pair in pairs:
         if len(pair) != SIDES or not all(isinstance(e, Experiment) for e in pair):
             raise InputError(f"{NAMED}, not {short(pair)}")
-    return tuple(dict.fromkeys(asked))
+    return tuple(dict.fromkeys(pairs))
 
 
 def plain_sides(
@@ -215,11 +215,13 @@ def names_under(
     differing = [pair for pair in experiments if pair[0] != pair[1]]
     if left != right or not differing:
         return left, right
-    a, b = (" and with ".join(map(_done, side)) for side in zip(*differing, strict=True))
+    a, b = (
+        " and with ".join(map(_describe_changes, side)) for side in zip(*differing, strict=True)
+    )
     return f"{left} with {a}", f"{right} with {b}"
 
 
-def _done(experiment: Experiment) -> str:
+def _describe_changes(experiment: Experiment) -> str:
     """Changes of the experiment in words."""
     return experiment.text if experiment != Experiment() else "nothing done"
 

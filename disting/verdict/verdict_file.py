@@ -100,7 +100,7 @@ def as_file(stored: StoredVerdict) -> dict[str, Any]:
     Words that no check compares are omitted: what was abandoned, and why something is not known.
     """
     query, beside = stored.query, stored.over_complex
-    asked = asdict(query) | {"view": query.view.value, "conditions": list(query.conditions)}
+    question = asdict(query) | {"view": query.view.value, "conditions": list(query.conditions)}
     pairs = [
         {"left": plain_experiment(left), "right": plain_experiment(right)}
         for left, right in stored.experiments
@@ -110,16 +110,16 @@ def as_file(stored: StoredVerdict) -> dict[str, Any]:
         "program": __version__,
         "models": [_plain_model(model) for model in stored.models],
         **({"experiments": pairs} if pairs else {}),  # older files of chains as they are have none
-        "query": asked,
+        "query": question,
         "settings": stored.settings.to_dict(),
-        **_compared(stored.verdict).to_dict(),
-        "over_complex": {} if beside is None else _compared(beside).to_dict(),
+        **_strip_words(stored.verdict).to_dict(),
+        "over_complex": {} if beside is None else _strip_words(beside).to_dict(),
     }
     plain: dict[str, Any] = json.loads(json.dumps(data))
     return plain
 
 
-def _compared(verdict: Verdict) -> Verdict:
+def _strip_words(verdict: Verdict) -> Verdict:
     """The verdict without words that nothing compares."""
     both = verdict.inclusions
     if both is not None:
@@ -149,7 +149,7 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
         what = "holds a verdict without its models" if is_verdict else "is no file of a verdict"
         raise InputError(f"it {what}; 'disting compare N:I M:J --json' writes one")
     try:
-        stored = _stored(data)
+        stored = _read_stored(data)
         unknown = [key for key in data if key not in (*as_file(stored), *beside)]
         if unknown:
             raise InputError(f"{short(unknown[0])} is no key of it")
@@ -224,7 +224,7 @@ def same_plain(stored: object, again: object) -> bool:
     return stored == again and isinstance(stored, bool) == isinstance(again, bool)
 
 
-def _stored(data: dict[str, Any]) -> StoredVerdict:
+def _read_stored(data: dict[str, Any]) -> StoredVerdict:
     a, b = map(_model, data["models"])
     pairs = data.get("experiments", [])
     if len(pairs) > MOST_EXPERIMENTS:

@@ -87,12 +87,12 @@ class Verification:
     def text(self) -> str:
         """All of it, a thing a line."""
         lines = [self.sentence, *self.verdicts]
-        for name, said in (
+        for name, words in (
             ("models", self.models),
             ("found again", "; ".join(self.found_again)),
             ("as written", "; ".join(self.as_written)),
         ):
-            lines += [f"{name:<12}{said}"] if said else []
+            lines += [f"{name:<12}{words}"] if words else []
         return "\n".join(lines)
 
 
@@ -119,12 +119,14 @@ def verify(verdict: dict[str, Any] | str | Path) -> Verification:
 def _verified_file(data: Any) -> Verification:
     """Verify a file of one verdict, or of one for every place."""
     if not isinstance(data, dict) or data.get("format") != EVERYWHERE:
-        return _verified(data, read_file(data))
+        return _verify_claims(data, read_file(data))
     stored = read_everywhere(data)
     other = difference_everywhere(data, stored)
     if other:
         return Verification(Status.FAILS, _not_agreeing(other))
-    ways = [_verified(plain, read) for plain, read in zip(data["verdicts"], stored, strict=True)]
+    ways = [
+        _verify_claims(plain, read) for plain, read in zip(data["verdicts"], stored, strict=True)
+    ]
     whole = Verification(
         Status.HOLDS,
         verdicts=tuple(sentence for way in ways for sentence in way.verdicts),
@@ -141,9 +143,9 @@ def _verified_file(data: Any) -> Verification:
     return whole
 
 
-def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
+def _verify_claims(data: dict[str, Any], stored: StoredVerdict) -> Verification:
     """Combine all checks; those that take too long leave it open, if nothing is wrong."""
-    unseen, seen = list[str](), list[str]()
+    unseen, found = list[str](), list[str]()
     written = [
         f"the settings that choose the random points (seed {short(stored.settings.seed)})",
         f"the version that wrote it ({data['program']})",
@@ -159,7 +161,7 @@ def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
                 continue
             if wrong:
                 return Verification(Status.FAILS, wrong)
-            seen.append(what)
+            found.append(what)
     except InputError as reason:
         raise InputError(f"the file of the verdict is damaged ({reason})") from None
     except (*DAMAGED, DistingError, RecursionError, AssertionError) as reason:
@@ -171,7 +173,7 @@ def _verified(data: dict[str, Any], stored: StoredVerdict) -> Verification:
         unseen[0] if unseen else "",
         (as_file(stored)["sentence"],),
         _whose(stored, sides),
-        tuple(filter(None, dict.fromkeys(seen))),
+        tuple(filter(None, dict.fromkeys(found))),
         tuple(filter(None, dict.fromkeys(written))),
     )
 
@@ -207,11 +209,11 @@ def _checks(
         query, where = exact(stored.query), "over complex parameters "
         claims.append(Claim(beside, query, sides, None, where))
     for what, check in CHECKS.items():
-        yield from (_named(what, claim, check) for claim in claims)
+        yield from (_name_check(what, claim, check) for claim in claims)
     yield "", partial(_false_equality, stored)
 
 
-def _named(what: str, claim: Claim, check: Check) -> tuple[str, Callable[[], Iterator[str]]]:
+def _name_check(what: str, claim: Claim, check: Check) -> tuple[str, Callable[[], Iterator[str]]]:
     """The check of a claim, and its name if there is anything to check."""
     v = claim.verdict
     shares = v.right_positive if v.left_positive is None else v.left_positive

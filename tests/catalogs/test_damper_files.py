@@ -29,7 +29,7 @@ from disting.catalogs.dampers import (
     SHIPPED_SIZES,
     DamperFamily,
     _read,
-    _written,
+    _rule_key,
     damper_catalog,
     damper_family,
     read,
@@ -311,5 +311,5 @@ def test_what_is_settled_and_what_contradicts_the_file_is_said_by_the_names_of_t
 
 def test_a_condition_of_any_name_is_read_as_it_was_written():
     names = ["1", "9", "10", "11", "marked", "exact"]
-    plain = json.loads(json.dumps(list(map(_written, names))))
+    plain = json.loads(json.dumps(list(map(_rule_key, names))))
     assert plain[-1] == 10 and list(map(_read, plain)) == names

@@ -25,7 +25,7 @@ from disting.planning.next_experiment import (
     stood,
 )
 from disting.planning.power import power
-from disting.report.fit.selection_json import _named
+from disting.report.fit.selection_json import _chain_to_dict
 from disting.verdict.engine import Engine
 from tests.fit.drives import dense_response, truth
 
@@ -38,7 +38,7 @@ BENCH = Bench(2 * np.pi * np.geomspace(0.1, 10.0, 40), np.full(40, 0.02), 1.5)
 def member(chain, values, **twins):
     """A structure that the data do not exclude, as the file of a fit has it."""
     same = [{"name": n, "parameters": v, "free_choices": 0} for n, v in twins.items()]
-    plain = _named(chain) | {"parameters": values}
+    plain = _chain_to_dict(chain) | {"parameters": values}
     return plain | {"equivalents": same}
 
 

@@ -96,7 +96,7 @@ def basis_steps(generators: Iterable[Sparse], size: int, modulus: int) -> Iterat
         ),
     )
     while work.pairs or work.waiting:
-        pivots, others, columns = _matrix(work, *_selected(work))
+        pivots, others, columns = _matrix(work, *_select_smallest(work))
         yield len(others) * len(columns)
         for new in _echelon(pivots, others, sorted(columns, reverse=True), modulus):
             if new.codes[0] == 0:
@@ -119,7 +119,7 @@ def _row(polynomial: Mapping[int, int], modulus: int) -> MatrixRow:
     return MatrixRow(tuple(m for m, _ in items), tuple(c * inverse % modulus for _, c in items))
 
 
-def _selected(work: _Work) -> tuple[list[MatrixRow], set[tuple[int, int]]]:
+def _select_smallest(work: _Work) -> tuple[list[MatrixRow], set[tuple[int, int]]]:
     """Generators and multiples (factor, element) of the smallest degree, taken out of what
     waits.
     """
@@ -148,17 +148,17 @@ def _matrix(
     pivots: Pivots = {}
     others = [row for row in rows if pivots.setdefault(row[0][0], row) is not row]
     others += [(list(r.codes), r.numbers) for r in fresh]
-    seen, todo = set(pivots), [m for codes, _ in (*pivots.values(), *others) for m in codes]
+    visited, todo = set(pivots), [m for codes, _ in (*pivots.values(), *others) for m in codes]
     while todo:
         m = todo.pop()
-        if m in seen:
+        if m in visited:
             continue
-        seen.add(m)
+        visited.add(m)
         i = _reducer(work, m)
         if i is not None:
             pivots[m] = _multiple(work, m - work.rows[i].codes[0], i)
             todo += pivots[m][0]
-    return pivots, others, seen
+    return pivots, others, visited
 
 
 def _multiple(work: _Work, factor: int, element: int) -> Multiple:
@@ -192,7 +192,8 @@ def _echelon(
     rows = list[MatrixRow]()
     for part in _parts(others, len(free)):
         reduced = (
-            _freed([at[c] for c in codes], numbers, steps, free, modulus) for codes, numbers in part
+            _reduce_row([at[c] for c in codes], numbers, steps, free, modulus)
+            for codes, numbers in part
         )
         kept += [row for row in reduced if any(row)]
         rows = _independent(kept, monomials, modulus)
@@ -219,7 +220,7 @@ def _independent(rows: list[list[int]], monomials: list[int], modulus: int) -> l
     return [_new_row(entries[r * width : (r + 1) * width], monomials) for r in range(rank)]
 
 
-def _freed(
+def _reduce_row(
     places: list[int],
     numbers: tuple[int, ...],
     steps: list[tuple[int, list[int], tuple[int, ...]]],

@@ -92,10 +92,10 @@ def serve() -> None:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what a task prints is no answer
         seconds, megabytes = pickle.load(sys.stdin.buffer)
         _limit(seconds, megabytes)
-        answer.write(pickle.dumps(_ended(megabytes)))
+        answer.write(pickle.dumps(_run_within(megabytes)))
 
 
-def _ended(megabytes: int) -> ProcessResult[object]:
+def _run_within(megabytes: int) -> ProcessResult[object]:
     try:
         task, arguments = pickle.load(sys.stdin.buffer)
         return ProcessResult(End.DONE, task(*arguments))

@@ -120,7 +120,7 @@ class Algebra:
             powers = [unit]
             for _ in self.monomials:
                 powers.append(form * powers[-1])
-            if by_form := self._solved(powers, [m * unit for m in unknowns]):
+            if by_form := self._solve_basis(powers, [m * unit for m in unknowns]):
                 return by_form
         return None
 
@@ -135,7 +135,7 @@ class Algebra:
             )
         return polynomials
 
-    def _solved(self, powers: list[fmpq_mat], unknowns: list[fmpq_mat]) -> Shape | None:
+    def _solve_basis(self, powers: list[fmpq_mat], unknowns: list[fmpq_mat]) -> Shape | None:
         """Each unknown and the last power in the powers before it, if these are a basis."""
         n = len(self.monomials)
         krylov = _side_by_side(powers[:n], n)
@@ -176,7 +176,9 @@ class Algebra:
             return {monomial: fmpq(1)}
         if monomial not in self._forms:
             self._forms[monomial] = (
-                self._tail(monomial) if monomial in self.ideal.leads else self._reduced(monomial)
+                self._tail(monomial)
+                if monomial in self.ideal.leads
+                else self._reduce_monomial(monomial)
             )
         return self._forms[monomial]
 
@@ -185,7 +187,7 @@ class Algebra:
         top = terms.pop(lead)
         return {e: fmpq(-c) / top for e, c in terms.items()}
 
-    def _reduced(self, monomial: tuple[int, ...]) -> Vector:
+    def _reduce_monomial(self, monomial: tuple[int, ...]) -> Vector:
         """x_i times the normal form of monomial / x_i, which is smaller and not standard."""
         lower = ((i, _times(monomial, i, -1)) for i, e in enumerate(monomial) if e)
         i, smaller = next((i, m) for i, m in lower if m not in self._at)

@@ -191,7 +191,7 @@ def safety_of_empty(
     """
     shape = _shape([a + b for a, b in zip(model.coordinates, other.coordinates, strict=True)])
     n, variables = len(other.parameters), len(model.parameters) + len(other.parameters)
-    size = _related(shape, n, not equal_rank, variables)
+    size = _relation_of(shape, n, not equal_rank, variables)
     minor = sum(shape.degrees[:n])  # of at most n rows, each a row of derivatives
     minor_bits = n * (shape.norm + log2(shape.degrees[0] * max(n, 1)))
     return _safety(
@@ -216,7 +216,7 @@ def safety_of_member(model: PolynomialMap, other: PolynomialMap, bits: int = BIT
     """
     shape, first = _shape(other.coordinates), _shape(model.coordinates)
     n = len(other.parameters)
-    size = _related(shape, n + 1, True, n)
+    size = _relation_of(shape, n + 1, True, n)
     delta, forms = size.weight, min(n + 1, len(shape.degrees))
     put_in = delta * (first.norm + _mixing(delta, len(first.degrees))) + forms * log2(delta + 1)
     return _safety(Size(delta * first.degrees[0], int(size.bits + put_in) + 1), bits)
@@ -255,7 +255,7 @@ def safety_of_other_values(model: PolynomialMap) -> int:
     return _safety(Size(bounds.weight, int(bounds.bits + put_in) + 1), BITS)
 
 
-def _related(shape: _Shape, equations: int, combined: bool, variables: int) -> Relation:
+def _relation_of(shape: _Shape, equations: int, combined: bool, variables: int) -> Relation:
     """The relation of so many equations, or as there are coordinates, and variables: one
     polynomial more than variables.
     """

@@ -174,7 +174,7 @@ def shared_fibre(
         equations += _tangents(height, other, normal)
     heads = zip(other.joints, share.joints, strict=True)
     placed: dict[str | int, int] = {h: -z % modulus for h, z in heads}
-    return _solved([p.subs(placed) for p in equations], field, set(other.joints))
+    return _solve_linear([p.subs(placed) for p in equations], field, set(other.joints))
 
 
 def _ports(row: Row) -> tuple[int, int]:
@@ -250,7 +250,7 @@ def _tangents(
     return [height.derivative(by) + more.get(by, 0) for by in range(len(other.parameters))]
 
 
-def _solved(
+def _solve_linear(
     equations: list[fmpz_mod_mpoly], field: fmpz_mod_mpoly_ctx, gone: set[int]
 ) -> tuple[int, list[Sparse]]:
     """The equations without the unknowns that are gone already, or that linear equations give."""

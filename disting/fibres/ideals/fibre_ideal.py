@@ -181,7 +181,9 @@ def _tangents(
         for r in range(rank)
     ]
     return [
-        _combined(row, gradients, j, modulus) for row in rows for j in range(len(other.parameters))
+        _combine_gradients(row, gradients, j, modulus)
+        for row in rows
+        for j in range(len(other.parameters))
     ]
 
 
@@ -197,7 +199,9 @@ def _left_null_space(of: Matrix, order: list[int], modulus: int) -> tuple[Matrix
     return echelon
 
 
-def _combined(row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int) -> Sparse:
+def _combine_gradients(
+    row: dict[int, int], gradients: list[list[Terms]], at: int, modulus: int
+) -> Sparse:
     total: Sparse = {}
     for i, weight in row.items():
         for exponents, number in gradients[i][at]:

@@ -38,7 +38,7 @@ def same_by_full_rows(a: Structure, b: Structure, label: str = LABEL) -> FullRow
     if not _comparable(a, b):
         return None
     pairs = zip(rows_of(a), rows_of(b), strict=True)
-    shared = [_shared(row, other, label) for row, other in pairs]
+    shared = [_compare_rows(row, other, label) for row, other in pairs]
     free = tuple(n for n in shared if n is not None)
     return FullRows(free) if len(free) == len(shared) and any(free) else None
 
@@ -47,7 +47,7 @@ def same_receptances(row: Row, other: Row) -> bool:
     """Return True if the receptances of two rows have equal closures, for one of the two
     reasons.
     """
-    return _shared(row.canonical, other.canonical, LABEL) is not None
+    return _compare_rows(row.canonical, other.canonical, LABEL) is not None
 
 
 def _comparable(a: Structure, b: Structure) -> bool:
@@ -58,7 +58,7 @@ def _comparable(a: Structure, b: Structure) -> bool:
     return kinds[0] == kinds[1] and len(a.row_ends) == 2
 
 
-def _shared(row: Row, other: Row, label: str) -> int | None:
+def _compare_rows(row: Row, other: Row, label: str) -> int | None:
     """SAME for equal rows, the number of coefficients of full ones of one form, None for
     others.
     """

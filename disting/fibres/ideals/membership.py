@@ -164,7 +164,7 @@ def decide_matched(
         ways = (True, False) if equal_rank else (True,)
         run, basis = _race(question, [question.run(way, _label(seed, 0)) for way in ways])
         if basis.is_one:
-            return _excluded(question, run, basis, seed)
+            return _exclude(question, run, basis, seed)
         if not members or run.ideal.modulus.bit_length() > BITS:
             return _unknown("a random point has solutions")
         return _member(question, run, basis, seed)
@@ -230,12 +230,12 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
     raise GivenUp(f"too large: {why}")
 
 
-def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> IdealDecision:
+def _exclude(question: _Question, run: _Run, basis: Basis, seed: str) -> IdealDecision:
     bits = run.ideal.modulus.bit_length()
     each = safety_of_empty(*question.sides(run.left_given), question.equal_rank, bits)
     labels, degree, reason = [run.label], basis.degree, ""
     try:
-        while len(labels) < _needed(question, each):
+        while len(labels) < _count_needed(question, each):
             label = _label(seed, len(labels))
             again, next_basis = _race(question, [question.run(run.left_given, label)])
             if not next_basis.is_one:
@@ -250,7 +250,7 @@ def _excluded(question: _Question, run: _Run, basis: Basis, seed: str) -> IdealD
 
 def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> IdealDecision:
     each = safety_of_member(*question.sides(run.left_given))
-    solutions, reason, wanted = dict[str, tuple[int, ...]](), "", _needed(question, each)
+    solutions, reason, wanted = dict[str, tuple[int, ...]](), "", _count_needed(question, each)
     try:
         for number in range(1, SPARE * wanted + 1):
             if basis.is_one:
@@ -268,7 +268,7 @@ def _member(question: _Question, run: _Run, basis: Basis, seed: str) -> IdealDec
     return Decision(Membership.MEMBER, each * len(solutions) - question.price, evidence, reason)
 
 
-def _needed(question: _Question, each: int) -> int:
+def _count_needed(question: _Question, each: int) -> int:
     if each <= question.price:
         raise GivenUp("primes of 64 bits give no bound for models of this size")
     return ceil((question.limits.safety + question.price) / each)
@@ -284,7 +284,7 @@ def _solution(question: _Question, run: _Run, basis: Basis) -> tuple[int, ...] |
     ideal, extra = run.ideal, list[Sparse]()
     values = residues(f"cut:{run.label}", len(ideal.unknowns), ideal.modulus)
     while (at := free_variable(basis)) is not None:
-        extra.append(_fixed(at, values[at], len(ideal.unknowns)))
+        extra.append(_fix_unknown(at, values[at], len(ideal.unknowns)))
         steps = basis_steps([*ideal.generators, *extra], len(ideal.unknowns), ideal.modulus)
         _, basis = _race(question, [_Run(run.left_given, run.label, ideal, steps)])
         if basis.is_one:
@@ -301,5 +301,5 @@ def _solution(question: _Question, run: _Run, basis: Basis) -> tuple[int, ...] |
     return solved
 
 
-def _fixed(at: int, value: int, size: int) -> Sparse:
+def _fix_unknown(at: int, value: int, size: int) -> Sparse:
     return {tuple(int(i == at) for i in range(size)): 1, (0,) * size: -value}

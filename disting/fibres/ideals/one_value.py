@@ -87,8 +87,8 @@ def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Value
     single: dict[str, bool] = {}
     try:
         for run in range(runs):
-            asked = wanted if not run else list(single)
-            for name, is_one in _at_point(model, asked, f"{label}:{run}", deadline):
+            remaining = wanted if not run else list(single)
+            for name, is_one in _at_point(model, remaining, f"{label}:{run}", deadline):
                 if single.setdefault(name, is_one) != is_one:
                     return ValueCounts(reason="one random point contradicts another")
     except GivenUp as why:
@@ -135,16 +135,16 @@ def safety_of_count(model: PolynomialMap, known: int, *, seed: str) -> int:
 def _dimension(leads: Sequence[tuple[int, ...]], size: int, most: int) -> int:
     """Number of monomials that no leading one divides, as far as it is at most `most`."""
     start = (0,) * size
-    seen, waiting = {start}, [start]
-    while waiting and len(seen) <= most:
+    visited, waiting = {start}, [start]
+    while waiting and len(visited) <= most:
         here = waiting.pop()
         for i in range(size):
             there = tuple(e + (i == j) for j, e in enumerate(here))
             divided = any(all(map(ge, there, lead)) for lead in leads)
-            if there not in seen and not divided:
-                seen.add(there)
+            if there not in visited and not divided:
+                visited.add(there)
                 waiting.append(there)
-    return len(seen)
+    return len(visited)
 
 
 def _at_point(

@@ -192,13 +192,13 @@ def shares_by_type(roots: Sequence[tuple[int, str]], joints: int, left: int) -> 
     """One way of each type to give roots to the joints, in order, to theta (so many) and to phi
     (the rest).
     """
-    seen = set[tuple[tuple[str, ...], tuple[str, ...]]]()
+    visited = set[tuple[tuple[str, ...], tuple[str, ...]]]()
     for first in permutations(roots, joints):
         rest = [r for r in roots if r not in first]
         for chosen in combinations(rest, left):
             key = (tuple(kind for _, kind in first), tuple(sorted(kind for _, kind in chosen)))
-            if key not in seen:
-                seen.add(key)
+            if key not in visited:
+                visited.add(key)
                 others = [r for r in rest if r not in chosen]
                 yield Share(*(tuple(z for z, _ in some) for some in (first, chosen, others)))
 
@@ -211,7 +211,7 @@ def is_symmetric(row: FactoredMap, label: str) -> bool:
     wanted = {
         (k, cycles)
         for k, factor in enumerate((row.left, row.right))
-        for cycles in _wanted(len(factor))
+        for cycles in _required_cycles(len(factor))
     }
     for draw in range(PATTERNS):
         if not wanted:
@@ -226,7 +226,7 @@ def is_symmetric(row: FactoredMap, label: str) -> bool:
     return not wanted
 
 
-def _wanted(degree: int) -> set[tuple[int, ...]]:
+def _required_cycles(degree: int) -> set[tuple[int, ...]]:
     """Cycle types that together make a group of this degree symmetric; () denotes a
     transposition.
     """

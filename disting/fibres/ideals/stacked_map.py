@@ -47,12 +47,10 @@ def stacked_maps(
     order = sorted(range(len(shared)), key=lambda i: shared.index(shared[i]))
     groups = [list(g) for _, g in groupby(order, key=lambda i: shared.index(shared[i]))]
     monic = [all(is_one(side[g[0]][1][-1]) for side in sides) for g in groups]
-    return tuple(
-        _stacked(each, side, groups, monic) for each, side in zip(names, sides, strict=True)
-    )
+    return tuple(_stack(each, side, groups, monic) for each, side in zip(names, sides, strict=True))
 
 
-def _stacked(
+def _stack(
     names: tuple[str, ...],
     fractions: Sequence[Fraction],
     groups: Sequence[Sequence[int]],

@@ -184,13 +184,13 @@ def match_maps(
             f" {other.degrees}"
         )
     top = max(model.degrees[0], other.degrees[0]) + 1
-    model, other = _padded(model, top), _padded(other, top)
+    model, other = _pad_map(model, top), _pad_map(other, top)
     if model.is_monic and other.is_monic:
         return model, other
     return model.with_scale(), other.with_scale()
 
 
-def _padded(model: CoefficientMap, count: int) -> CoefficientMap:
+def _pad_map(model: CoefficientMap, count: int) -> CoefficientMap:
     """The map with that many numerator coefficients; those left out are zero."""
     zero = model.denominator[-1] - model.denominator[-1]
     numerator = (*model.numerator, *[zero] * count)[:count]

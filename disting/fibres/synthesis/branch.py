@@ -97,18 +97,18 @@ def roots(p: Poly, degree: int, excluded: Callable[[Ball], bool] = lambda z: Fal
         raise Imprecise("a leading coefficient cannot be told from zero")
     if degree == 1:
         return [-p[0] / p[1]]
-    isolated = _isolated(p, None)
+    isolated = _isolate_roots(p, None)
     if not isolated:
         raise Imprecise("roots could not be isolated")
     slope = p.derivative()
 
     def sharpened(wide: list[Ball]) -> list[Ball | None]:
         """Each that is needed sharp, as sharp as may be."""
-        return [z if excluded(z) else _sharpened(p, slope, z) for z in wide]
+        return [z if excluded(z) else _sharpen_root(p, slope, z) for z in wide]
 
     sharp = sharpened(isolated)
     for tolerance in _ISOLATION:
-        finer = [] if all(z is not None for z in sharp) else _isolated(p, tolerance)
+        finer = [] if all(z is not None for z in sharp) else _isolate_roots(p, tolerance)
         if not finer:
             break
         isolated, sharp = finer, sharpened(finer)
@@ -117,13 +117,13 @@ def roots(p: Poly, degree: int, excluded: Callable[[Ball], bool] = lambda z: Fal
 
 def enclose(p: Poly, degree: int) -> list[Ball]:
     """Like `roots`, in a fraction of the time, but wide balls: enough to refute."""
-    isolated = [] if is_boundary(p[degree]) else _isolated(p, _ENCLOSED)
+    isolated = [] if is_boundary(p[degree]) else _isolate_roots(p, _ENCLOSED)
     if not isolated:
         raise Imprecise("roots could not be isolated")
     return isolated
 
 
-def _isolated(p: Poly, tolerance: float | None) -> list[Ball]:
+def _isolate_roots(p: Poly, tolerance: float | None) -> list[Ball]:
     """Disjoint balls with one root each, no wider than the tolerance; nothing if that fails."""
     try:
         return list(p.roots(tol=tolerance))
@@ -131,7 +131,7 @@ def _isolated(p: Poly, tolerance: float | None) -> list[Ball]:
         return []
 
 
-def _sharpened(p: Poly, slope: Poly, z: Ball) -> Ball | None:
+def _sharpen_root(p: Poly, slope: Poly, z: Ball) -> Ball | None:
     """Newton's method on midpoints, then one interval Newton step on a small box inside z: a
     proof that the root is there.
     """
@@ -238,9 +238,9 @@ def combine(
     `right` is evaluated only if the left side is not refuted.
     """
     first = list(left)
-    second = [] if _refuted(first) else list(right())
+    second = [] if _refutes(first) else list(right())
     for side in (first, second):
-        if _refuted(side):
+        if _refutes(side):
             yield from side
             return
     for a, b in itertools.product(first, second):
@@ -249,7 +249,7 @@ def combine(
     yield from (leaf for leaf in (*first, *second) if isinstance(leaf, Dead))
 
 
-def _refuted(leaves: list[Leaf]) -> bool:
+def _refutes(leaves: list[Leaf]) -> bool:
     return bool(leaves) and all(leaf == NONZERO for leaf in leaves)
 
 

@@ -44,7 +44,7 @@ def confirmation(chain: Chain, values: dict[str, Ball], target: Target) -> Confi
 def _krawczyk(
     chain: Chain, values: dict[str, Ball], target: Target, rows: list[int], residual: list[Ball]
 ) -> Confirmation:
-    box = {name: _inflated(v) for name, v in values.items()}
+    box = {name: _inflate_ball(v) for name, v in values.items()}
     mid = {name: v.mid() for name, v in values.items()}
     _, jacobian = _system(chain, box, target)
     wide = acb_mat([jacobian[i] for i in rows])
@@ -60,7 +60,7 @@ def _krawczyk(
     return Confirmation.SUBSYSTEM if inside else Confirmation.BALLS
 
 
-def _inflated(value: Ball) -> Ball:
+def _inflate_ball(value: Ball) -> Ball:
     """Box around a ball: at least twice as wide, and wide enough for a Krawczyk step at the
     present precision.
     """
@@ -131,7 +131,7 @@ class CheckedValues:
 
 def evaluate(chain: Chain, values: dict[str, Ball]) -> Rational[acb_poly]:
     """Receptance and gradients over balls."""
-    return receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
+    return receptance(chain.structure, _lift_values(values), acb_poly([0, 1]), acb_poly([1]))
 
 
 def check(
@@ -140,12 +140,14 @@ def check(
     """Compare every coefficient, the denominator made monic; a ball without the given
     coefficient refutes the candidate.
     """
-    num, den = plain_receptance(chain.structure, _lifted(values), acb_poly([0, 1]), acb_poly([1]))
+    num, den = plain_receptance(
+        chain.structure, _lift_values(values), acb_poly([0, 1]), acb_poly([1])
+    )
     lead = den[den.degree()]
     width = 0.0
     for ours, wanted in ((num, target.numerator), (den, target.denominator)):
         largest = max(abs(c) for c in wanted.coeffs())
-        for i, coefficient in enumerate(_padded(wanted, ours.degree())):
+        for i, coefficient in enumerate(_pad_coefficients(wanted, ours.degree())):
             gap = ours[i] / lead - acb(coefficient)
             if not gap.is_finite():
                 raise Imprecise("a coefficient is not finite")
@@ -157,11 +159,11 @@ def check(
     return CheckedValues(values, gauges, width)
 
 
-def _padded(polynomial: Exact, degree: int) -> list[fmpq]:
+def _pad_coefficients(polynomial: Exact, degree: int) -> list[fmpq]:
     return [polynomial[i] for i in range(max(degree, polynomial.degree()) + 1)]
 
 
-def _lifted(values: dict[str, Ball]) -> dict[str, acb_poly]:
+def _lift_values(values: dict[str, Ball]) -> dict[str, acb_poly]:
     return {name: acb_poly([value]) for name, value in values.items()}
 
 

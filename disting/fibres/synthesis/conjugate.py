@@ -53,14 +53,14 @@ def conjugate_factors(numerator: fmpq_poly) -> tuple[fmpz_poly, ...]:
     for modulus in _primes():
         if not wanted:
             break
-        wanted -= _shown(factors, modulus)
+        wanted -= _signs_of(factors, modulus)
     return () if wanted else factors
 
 
 _WANTED = ((), (), ("transposition",), ("transitive", "doubly", "transposition"))
 
 
-def _shown(factors: tuple[fmpz_poly, ...], modulus: int) -> Signs:
+def _signs_of(factors: tuple[fmpz_poly, ...], modulus: int) -> Signs:
     """Information on the group from the factors modulo a prime; none if one is multiple or a degree
     falls.
     """

@@ -111,12 +111,12 @@ def inner_neighbours(row: Row, data: Receptance) -> Iterator[Leaf]:
     speaks for all its conjugates.
     """
     zeros, gain = zeros_of(data, row.numerator_degree), data.gain(row)
-    seen: dict[int, list[SubsetSums]] = {}
+    known: dict[int, list[SubsetSums]] = {}
     for same in conjugate_ways([kind for kind, _ in zeros], 2 * (row.a - 1)):
         for way in same:
             (rho,), left, right = ([zeros[i][1] for i in some] for some in ((way[0],), *way[1:]))
             leaves = list(
-                _branch(Branch(row, data, -rho, left, right, gain), seen.setdefault(way[0], []))
+                _branch(Branch(row, data, -rho, left, right, gain), known.setdefault(way[0], []))
             )
             yield from leaves
             if way is same[0] and leaves and all(leaf == NONZERO for leaf in leaves):
@@ -130,7 +130,7 @@ def _branch(branch: Branch, seen: list["SubsetSums"]) -> Iterator[Leaf]:
         return
     degree, radius = degree_of(branch.row), _radius(branch)
     if not seen:
-        seen += [_seen(branch, d) for d in circle(degree, radius)]
+        seen += [_sum_subsets(branch, d) for d in circle(degree, radius)]
     for d in roots(through([at.product(branch.sigma) for at in seen], radius), degree):
         yield from [BOUNDARY] if is_boundary(d) else _quickly(branch, d)
 
@@ -165,7 +165,7 @@ class SubsetSums:
         return reduce(mul, (sigma + total for total in self.sums), self.factor)
 
 
-def _seen(branch: Branch, d: Ball) -> SubsetSums:
+def _sum_subsets(branch: Branch, d: Ball) -> SubsetSums:
     nodes, size = branch.row.n_masses, 2 * (branch.row.n_masses - branch.row.a)
     whole = branch.grounded(d)
     loose = not branch.row.grounded and not branch.row.ground_dampers

@@ -168,18 +168,20 @@ def _with_ratio(branch: Branch, u: Linear, v: Linear, t: Ball) -> Iterator[Leaf]
     last = RowValues(
         (m_b,), (), int(branch.row.n_masses in branch.row.ground_dampers), (branch.beta * m_b,)
     )
-    w = _left(branch, t, m_b, m_a)
+    w = _left_stiffness(branch, t, m_b, m_a)
     if not branch.row.ground_dampers:
-        yield from (_attached(leaf, m_a, friction.NOTHING, spring, last) for leaf in peel(w))
+        yield from (_attach_left(leaf, m_a, friction.NOTHING, spring, last) for leaf in peel(w))
         return
     dampers = tuple(i in branch.row.ground_dampers for i in range(w.masses + 1, 0, -1))
     for b, leaf in friction.solve_behind(
         friction.Node(w.numerator, w.denominator, dampers[0], dampers[1:], w.wall, False)
     ):
-        yield BOUNDARY if dampers[0] and is_boundary(b) else _attached(leaf, m_a, b, spring, last)
+        yield (
+            BOUNDARY if dampers[0] and is_boundary(b) else _attach_left(leaf, m_a, b, spring, last)
+        )
 
 
-def _left(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
+def _left_stiffness(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
     """W_L + b_a s = (m_a (D - m_b s (s + beta) N)/q_t - m_a s^2 A)/A; without remainder by the
     choice of t and m_b.
     """
@@ -201,7 +203,7 @@ def _left(branch: Branch, t: Ball, m_b: Ball, m_a: Ball) -> Stiffness:
     )
 
 
-def _attached(left: Leaf, m_a: Ball, b_a: Ball, spring: Poly, last: RowValues) -> Leaf:
+def _attach_left(left: Leaf, m_a: Ball, b_a: Ball, spring: Poly, last: RowValues) -> Leaf:
     """The row from its left side, mass a with its damper, the spring between the ports, and the
     last mass.
     """

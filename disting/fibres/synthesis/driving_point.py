@@ -161,7 +161,7 @@ def _side(row: Row, residues: list[Residue], constant: Ball, left: bool) -> Side
     )
 
 
-def _grown(side: Side, growth: Ball) -> Side:
+def _with_growth(side: Side, growth: Ball) -> Side:
     """The side with its slope given."""
     return replace(
         side, numerator=side.numerator + growth * shift(side.denominator, 1), slope_open=False
@@ -177,28 +177,28 @@ def _sides(port: _Port, left: Side, right: Side) -> Iterator[Leaf]:
     """Every left side with every right one."""
     if port.damper or not (left.slope_open or right.slope_open):
         yield from combine(
-            peel_side(left), lambda: peel_side(right), lambda a, b: _joined(port, a, b)
+            peel_side(left), lambda: peel_side(right), lambda a, b: _join_row(port, a, b)
         )
     elif left.slope_open and right.slope_open:
         for leaf in peel_side(right):
             yield from _left_of(port, left, leaf) if isinstance(leaf, RowValues) else [leaf]
     else:
         left, right = (
-            (_grown(left, port.beta - _growth(right)), right)
+            (_with_growth(left, port.beta - _growth(right)), right)
             if left.slope_open
-            else (left, _grown(right, port.beta - _growth(left)))
+            else (left, _with_growth(right, port.beta - _growth(left)))
         )
         yield from combine(
-            peel_side(left), lambda: peel_side(right), lambda a, b: _joined(port, a, b)
+            peel_side(left), lambda: peel_side(right), lambda a, b: _join_row(port, a, b)
         )
 
 
 def _left_of(port: _Port, left: Side, right: RowValues) -> Iterator[Leaf]:
-    for leaf in peel_side(_grown(left, port.beta - slope(right))):
-        yield _joined(port, leaf, right) if isinstance(leaf, RowValues) else leaf
+    for leaf in peel_side(_with_growth(left, port.beta - slope(right))):
+        yield _join_row(port, leaf, right) if isinstance(leaf, RowValues) else leaf
 
 
-def _joined(port: _Port, left: RowValues, right: RowValues) -> Leaf:
+def _join_row(port: _Port, left: RowValues, right: RowValues) -> Leaf:
     """The whole row; a damper that is not there must come out as zero."""
     b = port.beta - slope(left) - slope(right)
     if port.damper and is_boundary(b):

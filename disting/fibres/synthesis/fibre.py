@@ -83,7 +83,7 @@ def fibre(chain: Chain, target: Target, *, confirm: bool = True) -> Fibre:
     back = {image: name for name, image in form.renaming.items()}
     return replace(
         canonical_fibre,
-        solutions=tuple(_renamed(s, back, chain) for s in canonical_fibre.solutions),
+        solutions=tuple(_rename_solution(s, back, chain) for s in canonical_fibre.solutions),
     )
 
 
@@ -99,7 +99,7 @@ def _canonical_fibre(chain: Chain, target: Target, confirm: bool) -> Fibre:
             chain, _canonical_fibre(replace(chain, lag=False), factors[0], confirm), factors[1]
         )
     ruled_out = _ruled_out(chain, target)
-    return _searched(chain, target, confirm) if ruled_out is None else ruled_out
+    return _search_branches(chain, target, confirm) if ruled_out is None else ruled_out
 
 
 def _without_lag_pole(chain: Chain, target: Target) -> Fibre:
@@ -126,13 +126,13 @@ def _ruled_out(chain: Chain, target: Target) -> Fibre | None:
     return None
 
 
-def _searched(chain: Chain, target: Target, confirm: bool) -> Fibre:
+def _search_branches(chain: Chain, target: Target, confirm: bool) -> Fibre:
     """Every branch, with as many bits as it takes."""
     for bits in PRECISIONS:
         with ctx.workprec(bits):
             try:
                 leaves = list(_solutions(chain, target))
-                return replace(_judged(chain, target, leaves, confirm), precision_bits=bits)
+                return replace(_judge_branches(chain, target, leaves, confirm), precision_bits=bits)
             except Imprecise as failure:
                 reason = str(failure)
     return Fibre(Status.DEGENERATE, precision_bits=PRECISIONS[-1], reason=reason)
@@ -145,14 +145,18 @@ def _solutions(chain: Chain, target: Target) -> Iterator[CheckedValues | Dead]:
     whole = replace(folded.balls, exact=None if chain.gap else folded.numerator)
     for data, time in lag_poles(folded.balls, low) if chain.lag else [(whole, {})]:
         for leaf in _leaves(chain, data, low):
-            yield _multiplied(chain, leaf, time, target) if isinstance(leaf, RowValues) else leaf
+            yield (
+                _multiply_checked(chain, leaf, time, target)
+                if isinstance(leaf, RowValues)
+                else leaf
+            )
 
 
-def _multiplied(
+def _multiply_checked(
     chain: Chain, rows: RowValues, time: dict[str, Ball], target: Target
 ) -> CheckedValues | Dead:
     """The numbers checked; a member of a family that fails refutes nothing but itself."""
-    result = check(chain, _named(rows, chain) | time, rows.gauges, target)
+    result = check(chain, _name_values(rows, chain) | time, rows.gauges, target)
     return BOUNDARY if rows.gauges and isinstance(result, Dead) else result
 
 
@@ -175,11 +179,11 @@ def _both(split: Split, grounded: Row, free: Row, q: int) -> Iterator[Leaf]:
     return combine(
         synthesise(grounded, split.grounded.own(grounded, q)),
         lambda: synthesise(free, split.free.own(free, q)),
-        _joined,
+        _join_values,
     )
 
 
-def _joined(a: RowValues, b: RowValues) -> RowValues:
+def _join_values(a: RowValues, b: RowValues) -> RowValues:
     return RowValues(
         a.masses + b.masses,
         a.springs + b.springs,
@@ -188,7 +192,7 @@ def _joined(a: RowValues, b: RowValues) -> RowValues:
     )
 
 
-def _named(rows: RowValues, chain: Chain) -> dict[str, Ball]:
+def _name_values(rows: RowValues, chain: Chain) -> dict[str, Ball]:
     """Values by parameter name, in the structure's order."""
     joints = [i for i in range(chain.n_masses) if i != chain.gap]
     values = {Mass(i).parameter: m for i, m in enumerate(rows.masses, 1)}
@@ -200,13 +204,13 @@ def _named(rows: RowValues, chain: Chain) -> dict[str, Ball]:
     }
 
 
-def _renamed(solution: Solution, names: dict[str, str], chain: Chain) -> Solution:
+def _rename_solution(solution: Solution, names: dict[str, str], chain: Chain) -> Solution:
     """The solution in the parameters of the chain as given."""
     values = {names[name]: value for name, value in solution.values.items()}
     return replace(solution, values={name: values[name] for name in chain.parameters})
 
 
-def _judged(
+def _judge_branches(
     chain: Chain, target: Target, leaves: list[CheckedValues | Dead], confirm: bool
 ) -> Fibre:
     """Status from what the branches ended in."""
@@ -251,11 +255,11 @@ def share_dampers(chain: Chain, whole: Fibre) -> Fibre:
         whole,
         status=status,
         reason=reason,
-        solutions=tuple(_halved(chain, s) for s in whole.solutions),
+        solutions=tuple(_halve_damper(chain, s) for s in whole.solutions),
     )
 
 
-def _halved(chain: Chain, solution: Solution) -> Solution:
+def _halve_damper(chain: Chain, solution: Solution) -> Solution:
     half = solution.values["d01"] / 2
     shared_values = solution.values | {"d01": half, "b1": half}
     values = {name: shared_values[name] for name in chain.parameters}

@@ -93,7 +93,7 @@ def peel_side(w: Side) -> Iterator[Leaf]:
     elif w.slope_open:
         yield from _open(w)
     elif any(w.dampers):
-        yield from _damped(w)
+        yield from _damped_branches(w)
     else:
         yield from peel(
             Stiffness(
@@ -182,7 +182,7 @@ def _elastic(w: Side) -> Iterator[Leaf]:
         yield from _behind(w, w.numerator, poly([c]))
 
 
-def _damped(w: Side) -> Iterator[Leaf]:
+def _damped_branches(w: Side) -> Iterator[Leaf]:
     """One branch for every root of P (at a free end: of P/s) that passes the test."""
     degree, low = 2 * len(w.dampers) + 1, 0 if w.wall else 1
     d, steepness = w.numerator[degree], w.numerator.derivative()

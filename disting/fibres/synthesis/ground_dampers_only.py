@@ -48,7 +48,7 @@ def swing_rows(row: Row, data: Receptance) -> Iterator[Leaf]:
     beta = friction.random(1)[0] if row.n_masses in row.ground_dampers else friction.NOTHING
     upper = data.denominator if row.grounded else shift(data.denominator, -1)
     lower = data.numerator if row.grounded else data.numerator * poly([beta, 1])
-    (u1, u0), (v1, v0) = _reduced(upper, beta), _reduced(lower, beta)
+    (u1, u0), (v1, v0) = _reduce_modulo(upper, beta), _reduce_modulo(lower, beta)
     degree = 2 * row.n_masses - 3
     for t in roots(cut(u1 * v0 - u0 * v1, degree), degree):
         ratio = _ratio((u1(t), u0(t)), (v1(t), v0(t)))
@@ -58,7 +58,7 @@ def swing_rows(row: Row, data: Receptance) -> Iterator[Leaf]:
         )
 
 
-def _reduced(p: Poly, beta: Ball) -> tuple[Poly, Poly]:
+def _reduce_modulo(p: Poly, beta: Ball) -> tuple[Poly, Poly]:
     """Coefficients of s and 1 of p modulo s^2 + beta s + t, polynomials in t, from s^(k+1) = s
     s^k.
     """
@@ -93,10 +93,10 @@ def _with_mass(row: Row, data: Receptance, beta: Ball, t: Ball, m_b: Ball) -> It
     for b, leaf in friction.solve_behind(
         friction.Node(raw, zeros, dampers[0], dampers[1:], row.grounded, True)
     ):
-        yield _joined(row, leaf, (m_a, m_b), (b, beta * m_b), spring)
+        yield _join_row(row, leaf, (m_a, m_b), (b, beta * m_b), spring)
 
 
-def _joined(
+def _join_row(
     row: Row,
     left: Leaf,
     masses: tuple[Ball, Ball],

@@ -44,7 +44,7 @@ def method_of(row: Row) -> Method | None:
     if row.distance == 0:
         return driving_point if row.ground_dampers else collocated_rows
     if row.damped:
-        return _damped(row)
+        return _damped_method(row)
     if row.ground_dampers:
         ends = row.distance == 1 and row.b == row.n_masses
         return swing_rows if ends and adapts(row) else None
@@ -53,7 +53,7 @@ def method_of(row: Row) -> Method | None:
     return neighbours if row.distance == 1 else None
 
 
-def _damped(row: Row) -> Method | None:
+def _damped_method(row: Row) -> Method | None:
     if row.distance > 1:
         return None
     if row.b == row.n_masses and (row.n_masses not in row.ground_dampers or is_untested(row)):

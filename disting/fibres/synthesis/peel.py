@@ -48,7 +48,7 @@ def peel(w: Stiffness) -> Iterator[Leaf]:
     elif w.q == 1:
         yield from _behind(w, poly([w.numerator[w.masses]]))
     else:
-        yield from _damped(w)
+        yield from _damped_branches(w)
 
 
 def _degree(w: Stiffness) -> int:
@@ -68,7 +68,7 @@ def _last(w: Stiffness) -> Leaf:
     )
 
 
-def _damped(w: Stiffness) -> Iterator[Leaf]:
+def _damped_branches(w: Stiffness) -> Iterator[Leaf]:
     """One branch for every root of P (at a free end: of P/s^2) that passes the test."""
     low = 0 if w.wall else 2
     d, slope = w.numerator[_degree(w)], w.numerator.derivative()

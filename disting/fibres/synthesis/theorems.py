@@ -197,7 +197,7 @@ def dual(chain: Chain, values: Mapping[str, Scalar]) -> dict[str, Scalar]:
         (values[k], values[f"d{k[1:]}"]) if chain.damped else (values[k],) for k in names
     ]
     total = sum(masses[g + 1 :], masses[g])
-    inner, springs = _grounded(masses[g:], laws[g:], total)
+    inner, springs = _ground_row(masses[g:], laws[g:], total)
     outer, others = _free(masses[:g][::-1], laws[:g][::-1], total)
     target = _mirror_gap(chain)
     return dict(
@@ -223,15 +223,17 @@ def _mirror_gap(chain: Chain) -> Chain:
     return Chain(chain.n_masses, h, h, h + 1, h, h + 1, sensor=chain.sensor, damped=chain.damped)
 
 
-def _grounded(masses: list[Scalar], springs: list[Law[Scalar]], total: Scalar) -> Outwards[Scalar]:
+def _ground_row(
+    masses: list[Scalar], springs: list[Law[Scalar]], total: Scalar
+) -> Outwards[Scalar]:
     """The row of F - 1/(M s^2)."""
     if not springs:
         return [], []
     rest = total - masses[0]
-    inner, laws = _grounded(masses[1:], springs[1:], rest)
+    inner, laws = _ground_row(masses[1:], springs[1:], rest)
     factor = (total / rest) ** 2
     return [total * masses[0] / rest, *(factor * m for m in inner)], [
-        _scaled(law, factor) for law in (springs[0], *laws)
+        _scale_law(law, factor) for law in (springs[0], *laws)
     ]
 
 
@@ -242,12 +244,12 @@ def _free(masses: list[Scalar], springs: list[Law[Scalar]], total: Scalar) -> Ou
     rest = total**2 / (total + masses[0])
     factor = (rest / total) ** 2
     inner, laws = _free(
-        [factor * m for m in masses[1:]], [_scaled(law, factor) for law in springs[1:]], rest
+        [factor * m for m in masses[1:]], [_scale_law(law, factor) for law in springs[1:]], rest
     )
-    return [total - rest, *inner], [_scaled(springs[0], factor), *laws]
+    return [total - rest, *inner], [_scale_law(springs[0], factor), *laws]
 
 
-def _scaled(law: Law[Scalar], factor: Scalar) -> Law[Scalar]:
+def _scale_law(law: Law[Scalar], factor: Scalar) -> Law[Scalar]:
     return tuple(factor * x for x in law)
 
 

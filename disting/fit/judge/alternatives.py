@@ -191,7 +191,7 @@ def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], R
     """Relation over complex parameters by two places: looked up where all chains are shipped,
     else by the conditions.
     """
-    matrix = _shipped()
+    matrix = _load_shipped()
     if (
         matrix is not None
         and len({c.sensor for c in chains}) == 1
@@ -205,7 +205,7 @@ def _relation(chains: Sequence[Chain], engine: Engine) -> Callable[[int, int], R
 
 def _surely_apart(winner: Chain, other: Chain) -> bool:
     """Return True if the shipped verdict states that they are distinguishable."""
-    matrix = _shipped()
+    matrix = _load_shipped()
     if (
         matrix is None
         or winner not in matrix
@@ -216,7 +216,7 @@ def _surely_apart(winner: Chain, other: Chain) -> bool:
     return matrix.relation(winner, other) is Relation.DISTINGUISHABLE
 
 
-def _shipped() -> stored.Matrix | None:
+def _load_shipped() -> stored.Matrix | None:
     """The shipped verdicts; a missing or damaged file costs time only."""
     try:
         return stored.shipped_matrix()

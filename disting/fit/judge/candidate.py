@@ -64,7 +64,7 @@ def with_structure(
     return {
         chain: _told_together(chain, assessment, task, settings)
         if isinstance(task.cost, JointCost)
-        else _told(chain, assessment, settings)
+        else _describe_determined(chain, assessment, settings)
         for chain, assessment in judged.items()
     }
 
@@ -91,7 +91,7 @@ def _told_together(
     return replace(assessment, condition_indices=indices, collinearity=inf, unidentifiable=words)
 
 
-def _told(chain: Chain, assessment: Practical, settings: Settings) -> Practical:
+def _describe_determined(chain: Chain, assessment: Practical, settings: Settings) -> Practical:
     proof = proof_tangents(chain.structure, settings.seed, settings.points)
     rank = max(t.rank_by(assessment.names) for t in proof)
     lacking = len(assessment.names) - rank
@@ -220,7 +220,7 @@ def judge(
     """Judge each estimate by the scatter of the data, in the order of the cost on test."""
     each = list(estimates)
     first = {e.chain: _criteria(e, task, own_scatters[0]) for e in each}
-    criteria = with_structure({c: seen for c, (seen, _) in first.items()}, task, settings)
+    criteria = with_structure({c: residuals for c, (residuals, _) in first.items()}, task, settings)
     fitted = [
         _candidate(e, criteria[e.chain], first[e.chain][1], task, test_cost, own_scatters)
         for e in each
@@ -241,8 +241,8 @@ def unseen_explanation(estimate: Estimate, task: Task, most: Real) -> Explanatio
     own, size = _scatter_about(estimate, task), np.abs(task.cost.measured.G)
     sigma = np.minimum(own.sigma, most * size)
     scatter = replace(own, rho=sigma / (np.sqrt(2) * own.size))
-    missed = _expected(estimate, task, None, scatter, scatter)
-    response = _cross_validated(estimate, task, values_of(estimate, task))
+    missed = _expect_residuals(estimate, task, None, scatter, scatter)
+    response = _cross_validate(estimate, task, values_of(estimate, task))
     residual = WhitenedCost(task.cost, scatter).residual(response)
     return explain(task.cost, residual, missed, scatter)
 
@@ -305,11 +305,11 @@ def _candidate(
     p = values_of(estimate, task)
     box = task.box(names)
     cost = test or task.cost
-    response = _cross_validated(estimate, task, p) if test is None else _at(chain, task, test, p)
+    response = _cross_validate(estimate, task, p) if test is None else _at(chain, task, test, p)
     residual = cost.residual(response)
     near = (box.high - p <= AT_BOUND * p) | ((box.low > 0) & (p - box.low <= AT_BOUND * p))
     at_bound = tuple(n for n, hit, free in zip(names, near, box.free, strict=True) if hit and free)
-    missed = _expected(estimate, task, test, *own_scatters)
+    missed = _expect_residuals(estimate, task, test, *own_scatters)
     whitened = WhitenedCost(cost, own_scatters[1]).residual(response)
     apart, worst = chi2_apart(whitened, missed, line_frequencies(cost))
     return Candidate(
@@ -327,7 +327,7 @@ def _candidate(
     )
 
 
-def _expected(
+def _expect_residuals(
     estimate: Estimate, task: Task, test: AnyCost | None, inside: Scatter, outside: Scatter
 ) -> Real:
     """Expected whitened residuals on the judged data, shape (n_y,): 1, and the errors of the
@@ -337,14 +337,16 @@ def _expected(
     p, free = values_of(estimate, task), task.box(task.names(estimate.chain)).free
     plant, sigma, judging = task.plant(estimate.chain), task.cost.scatter(inside), test or task.cost
     other_plant = replace(task, cost=judging).plant(estimate.chain)
-    seen = WhitenedCost(judging, outside).of(other_plant, p)[1][:, free]
-    ones = np.ones(len(seen))
+    columns = WhitenedCost(judging, outside).of(other_plant, p)[1][:, free]
+    ones = np.ones(len(columns))
     if test is not None:
-        return expected_deviation(task.cost.of(plant, p)[1][:, free], sigma, seen, ones)
+        return expected_deviation(task.cost.of(plant, p)[1][:, free], sigma, columns, ones)
     rows = np.concatenate([np.tile(fold, 2) for fold in _folds(task.cost)])
     for fold in range(FOLDS):
         kept = _without(task, fold).cost.of(plant, p)[1][:, free]
-        ones[rows == fold] = expected_deviation(kept, sigma, seen[rows == fold], ones[rows == fold])
+        ones[rows == fold] = expected_deviation(
+            kept, sigma, columns[rows == fold], ones[rows == fold]
+        )
     return ones
 
 
@@ -362,7 +364,7 @@ def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:
     return replace(task, cost=cost).plant(chain).response(p)
 
 
-def _cross_validated(estimate: Estimate, task: Task, p: Real) -> Complex:
+def _cross_validate(estimate: Estimate, task: Task, p: Real) -> Complex:
     """The response at each line of the fit to the other folds, shape (n_f,)."""
     if not task.box(task.names(estimate.chain)).free.any():
         return _at(estimate.chain, task, task.cost, p)  # no fit sees any line

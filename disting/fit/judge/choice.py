@@ -65,18 +65,18 @@ def searched_again(
     """The judged candidates that do not fit the data although they contain one that is left, each
     as good as that; none where the bounds of the task keep them away from it.
     """
-    seen = scatters[1]
+    scatter = scatters[1]
     own = {c.chain: c for c in left}
     chains = set(own)
     for c in sorted(judged, key=lambda c: c.n_parameters):
-        if c.explains(seen):
+        if c.explains(scatter):
             continue
         inner = (own[s] for s in own if contains(c.chain, s))
         for contained in sorted(inner, key=lambda s: s.j_train)[:1]:
             limit = limit_in(c.chain, contained, task, scatters[0])
             if limit is not None:
                 ends = _from_limit(c, contained, limit, task, test, scatters, settings)
-                own[c.chain] = next(end for end in ends if end.explains(seen))
+                own[c.chain] = next(end for end in ends if end.explains(scatter))
     return {chain: c for chain, c in own.items() if chain not in chains}
 
 
@@ -209,17 +209,17 @@ def choice(
     """Find the remaining candidates and select one; `fitted` in the order of J on test, `scatters`
     = scatter of training data and of those on test.
     """
-    judging, seen = test or task.cost, scatters[1]
-    asked, enough = eligible(fitted, rule), judged(fitted, rule, judging)
-    explaining = [c for c in enough if c.explains(seen)]
-    lone = _lone(asked, task, scatters[0], settings) if explaining else {}
+    judging, scatter = test or task.cost, scatters[1]
+    eligible_ones, enough = eligible(fitted, rule), judged(fitted, rule, judging)
+    explaining = [c for c in enough if c.explains(scatter)]
+    lone = _lone(eligible_ones, task, scatters[0], settings) if explaining else {}
     if all(c.chain in lone for c in explaining):
-        best = next((c for c in asked if c.chain not in lone), None)
-        said = _explained(best or fitted[0], judging, seen)
+        best = next((c for c in eligible_ones if c.chain not in lone), None)
+        explanation_of_best = _explain_described(best or fitted[0], judging, scatter)
         better = _better(best, fitted, task, scatters) if best and rule is Rule.PAPER else ()
         whole = tuple(replace(c, rests_on=lone.get(c.chain)) for c in fitted)
-        return Choice(whole, said, best, better=better)
-    out, lone = _excluded(explaining, lone, task, test, scatters, settings)
+        return Choice(whole, explanation_of_best, best, better=better)
+    out, lone = _find_excluded(explaining, lone, task, test, scatters, settings)
     out = left_with_contained(out, explaining, task, scatters)
     whole = tuple(replace(c, excluded=out.get(c.chain), rests_on=lone.get(c.chain)) for c in fitted)
     chains = {c.chain for c in explaining} - out.keys()
@@ -229,15 +229,17 @@ def choice(
     )
     selected = left[0]
     better = _better(selected, fitted, task, scatters) if rule is Rule.PAPER else ()
-    return Choice(whole, _explained(selected, judging, seen), selected, tuple(left), better)
+    return Choice(
+        whole, _explain_described(selected, judging, scatter), selected, tuple(left), better
+    )
 
 
 def eligible(fitted: Sequence[Candidate], rule: Rule) -> list[Candidate]:
     """The candidates that may be left: those that some data determine, and, under the paper's rule,
     whose criteria hold.
     """
-    asked = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
-    return [c for c in asked if not c.practical.unidentifiable] or asked
+    admitted = [c for c in fitted if c.admissible] if rule is Rule.PAPER else list(fitted)
+    return [c for c in admitted if not c.practical.unidentifiable] or admitted
 
 
 def judged(fitted: Sequence[Candidate], rule: Rule, judging: AnyCost) -> list[Candidate]:
@@ -246,9 +248,9 @@ def judged(fitted: Sequence[Candidate], rule: Rule, judging: AnyCost) -> list[Ca
     return [c for c in eligible(fitted, rule) if lines >= needed_lines(c.n_parameters)]
 
 
-def _explained(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
-    said = explain(judging, described.residual, described.missed, seen)
-    return replace(said, needed=needed_lines(described.n_parameters))
+def _explain_described(described: Candidate, judging: AnyCost, seen: Scatter) -> Explanation:
+    found = explain(judging, described.residual, described.missed, seen)
+    return replace(found, needed=needed_lines(described.n_parameters))
 
 
 def _lone(
@@ -259,7 +261,7 @@ def _lone(
     return rests_on_lone_lines(trained, inside.freedom, settings)
 
 
-def _excluded(
+def _find_excluded(
     candidates: Sequence[Candidate],
     lone: dict[Chain, LoneLines],
     task: Task,

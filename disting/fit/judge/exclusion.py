@@ -164,19 +164,19 @@ def exclusions(
     structures that exclude none.
     """
     exclusions: dict[Chain, Exclusion] = {}
-    seen, second = again is None, dict[Chain, Fit]()
-    asked = [f for f in fitted if f.chain not in lone]
+    is_first, second = again is None, dict[Chain, Fit]()
+    candidates = [f for f in fitted if f.chain not in lone]
     for candidate in fitted:
-        larger = [f for f in asked if contains(f.chain, candidate.chain)] if seen else []
+        larger = [f for f in candidates if contains(f.chain, candidate.chain)] if is_first else []
         clearest = 1.0  # T as a multiple of its limit
-        for other in asked:
+        for other in candidates:
             gain = candidate.cost - other.cost
             if gain <= 0:
                 continue
             size = statistic(candidate, other)
             if size <= limit(1, freedom):
                 continue
-            most = _limit_beside(candidate, other, freedom, settings if seen else None)
+            most = _limit_beside(candidate, other, freedom, settings if is_first else None)
             if size > clearest * most and again:
                 if candidate.chain not in second:
                     second[candidate.chain] = again(candidate)

@@ -149,8 +149,8 @@ class Explanation:
     is_beaten: bool = False
 
     def __repr__(self) -> str:
-        said = "the data are mostly noise" if self.noisy else f"{self.level.value} the data"
-        return summary(self, f"chi2 {self.chi2:.3g}, {said}")
+        verdict = "the data are mostly noise" if self.noisy else f"{self.level.value} the data"
+        return summary(self, f"chi2 {self.chi2:.3g}, {verdict}")
 
     @property
     def level(self) -> Level:

@@ -60,12 +60,12 @@ def held(estimate: Estimate, task: Task) -> Held | None:
         return None
     period = 1 / method.rate
     known = scatter(data, [_response(estimate, task)])
-    bare = _fitted(estimate.parameters, chain, task, known)[1]
+    bare = _fit_near(estimate.parameters, chain, task, known)[1]
     behind = replace(task, cost=replace(cost, measured=data.held(period, method.order)))
     start = {"Td": period, "T1": period, **estimate.parameters}
     most = limit(1, known.freedom)
     for other in _actuators(chain):
-        p, q = _fitted(start, other, behind, known)
+        p, q = _fit_near(start, other, behind, known)
         if q - bare <= most:
             dead_time = dict(zip(other.parameters, p, strict=True)).get("Td", 0.0)
             return Held(period, other, float(dead_time), q, bare, most)
@@ -84,7 +84,7 @@ def _response(estimate: Estimate, task: Task) -> Complex:
     return task.plant(estimate.chain).response(p)
 
 
-def _fitted(
+def _fit_near(
     start: Mapping[str, float], chain: Chain, task: Task, known: Scatter
 ) -> tuple[Real, float]:
     """Parameters and Q of a chain near a start."""

@@ -84,7 +84,7 @@ def intervals(
         own = float(about.whitened.total(response))
         most = STRAIGHT if own - about.lowest <= MOST_LIKELY else FROM_ZERO
         intervals = {
-            n: intervals[n] if e <= most else _profiled(about, n, e <= FROM_ZERO)
+            n: intervals[n] if e <= most else _profile_interval(about, n, e <= FROM_ZERO)
             for n, e in errors.items()
         }
     return _with_valleys(about, intervals, wide, same)
@@ -139,7 +139,7 @@ def _likelihood(candidate: Candidate, task: Task, scatter: Scatter) -> _Likeliho
     return _Likelihood(task, candidate, whitened, scatter, best, lowest, size, spread, usual)
 
 
-def _profiled(about: _Likelihood, name: str, is_felt: bool) -> Interval:
+def _profile_interval(about: _Likelihood, name: str, is_felt: bool) -> Interval:
     """The interval by the profile of the likelihood; `is_felt`: it is known not to be zero."""
     task, candidate, scatter = about.task, about.candidate, about.known
     at = task.names(candidate.chain).index(name)

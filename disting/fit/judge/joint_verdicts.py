@@ -43,7 +43,9 @@ def under_all(
     """
     if chain.gap_damper or other.gap_damper:
         return Alternative(other, Relation.UNDECIDED, OPEN)
-    mine, theirs = (engine.measured_subject(str(c), _measured(c, cost)) for c in (chain, other))
+    mine, theirs = (
+        engine.measured_subject(str(c), _measure_chain(c, cost)) for c in (chain, other)
+    )
     verdict = engine.verdict(mine, theirs, Query(View.COMBINED))
     if verdict.relation is Relation.DISTINGUISHABLE:
         return None
@@ -62,7 +64,7 @@ def is_same_under_all(chain: Chain, other: Chain, cost: AnyCost, limits: Limits)
     return chain == other or all(
         any(
             is_within(renaming, limits)
-            and is_renaming(_measured(this_chain, cost), _measured(two, cost), renaming)
+            and is_renaming(_measure_chain(this_chain, cost), _measure_chain(two, cost), renaming)
             for renaming in renamings(this_chain, two)
         )
         for this_chain, two in ((chain, other), (other, chain))
@@ -140,7 +142,7 @@ def _same(values: Complex, other: Complex) -> bool:
     return bool(np.all(np.abs(values - other) <= SAME * np.abs(values)))
 
 
-def _measured(chain: Chain, cost: AnyCost) -> MeasuredChain:
+def _measure_chain(chain: Chain, cost: AnyCost) -> MeasuredChain:
     return measured_chain(chain, cost.setups_of(chain.structure))
 
 
@@ -190,8 +192,8 @@ def informative(
     if home is not None:
         lacking = [extra.setup.missing(home.structure) for extra in further]
         if any(lacking):
-            said = enumeration(list(filter(None, lacking)))
-            raise InputError(f"{reference(home)} cannot be measured like this: {said}")
+            sentence = enumeration(list(filter(None, lacking)))
+            raise InputError(f"{reference(home)} cannot be measured like this: {sentence}")
         setups = [Setup(), *(extra.setup for extra in further)]
         other_chains = [
             c for c in candidates if body(c) == body(home) or any(placements(home, c, setups))

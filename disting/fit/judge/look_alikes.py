@@ -141,15 +141,17 @@ def _values_of(
 ) -> Mapping[str, float] | None:
     """One set of values. A ground damper at force and sensor is a term of 1/G by itself."""
     if chain.ground_dampers != (1,) or chain.meas_plus != 1 or "b1" not in network.parameters:
-        return _synthesized(chain, values, network)
+        return _synthesize_values(chain, values, network)
     kept = tuple(e for e in network.elements if e.value != "b1")
-    rest = _synthesized(replace(chain, ground_dampers=()), values, replace(network, elements=kept))
+    rest = _synthesize_values(
+        replace(chain, ground_dampers=()), values, replace(network, elements=kept)
+    )
     return None if rest is None else {**rest, "b1": values["b1"]}
 
 
 def _same_branches(chain: Chain) -> Iterator[Network]:
     """Branches that have the same responses by the theorems."""
-    others = _branched(chain.n_masses, chain.meas_plus - 1, len(chain.ground_dampers))
+    others = _list_branches(chain.n_masses, chain.meas_plus - 1, len(chain.ground_dampers))
     if not others:
         return
     # the engine of networks, which a fit needs here alone
@@ -163,7 +165,7 @@ def _same_branches(chain: Chain) -> Iterator[Network]:
             yield network
 
 
-def _branched(masses: int, distance: int, dampers: int) -> list[Layout]:
+def _list_branches(masses: int, distance: int, dampers: int) -> list[Layout]:
     """Trees but the row from mass 1, with such a sensor and so many ground dampers, each once."""
     row = tuple((i, i + 1) for i in range(1, masses))
     pairs = list(combinations(range(1, masses + 1), 2))
@@ -223,7 +225,7 @@ def _network(layout: Layout, chain: Chain) -> Network:
     return Network(elements, (Port(1),), (Port(sensor),), chain.sensor.order, text)
 
 
-def _synthesized(
+def _synthesize_values(
     chain: Chain, values: Mapping[str, float], network: Network
 ) -> Mapping[str, float] | None:
     """Positive values by synthesis, None where there is no formula."""

@@ -127,7 +127,7 @@ def members(
     progress: Callable[[str, int, int], object] = lambda what, done, total: None,
 ) -> tuple[Member, ...]:
     """The candidates that are left, in their order, as members of the set."""
-    inside = {c.chain: _contained(c, left) for c in left}
+    inside = {c.chain: _find_contained(c, left) for c in left}
     chosen = [c for c in left if inside[c.chain] is None]
     rows = [
         (c.chain, {n: c.estimate.parameters[n] for n in c.chain.parameters}, dict(limits))
@@ -137,7 +137,9 @@ def members(
     for (chain, values, _), both in map_tasks(twins, rows, executor):
         twins_of[chain] = _in_all(chain, values, *both, task)
         progress("equivalents", len(twins_of), len(rows))
-    others = {c.chain: _exchanged(c, twins_of[c.chain][0], task, own_scatters) for c in chosen}
+    others = {
+        c.chain: _exchange_values(c, twins_of[c.chain][0], task, own_scatters) for c in chosen
+    }
     return tuple(
         Member(
             c,
@@ -154,7 +156,7 @@ def members(
     )
 
 
-def _exchanged(
+def _exchange_values(
     candidate: Candidate, the_twins: Sequence[Twin], task: Task, own_scatters: Scatters
 ) -> tuple[Candidate, ...]:
     """The candidate at the other values of its own that give the same response."""
@@ -178,7 +180,7 @@ def _intervals(
     return intervals(candidate, task, own_scatters[0], others)
 
 
-def _contained(candidate: Candidate, left: Sequence[Candidate]) -> Chain | None:
+def _find_contained(candidate: Candidate, left: Sequence[Candidate]) -> Chain | None:
     """The simplest structure left that a candidate contains: the selected one, or, where the data
     do not determine all of its parameters, any.
     """

@@ -111,7 +111,7 @@ def physical(candidate: Candidate, task: Task) -> tuple[Result, ...]:
 def _values(structure: Structure, p: Real) -> list[Result]:
     """The results without errors; equally many for all parameters near by."""
     p = p[: len(structure.parameters)]
-    values = _named(structure, p)
+    values = _name_values(structure, p)
     masses = {n: v for n, v in values.items() if n[0] == "m"}
     motor = masses[f"m{structure.ports.act_plus}"]
     rows = [("total inertia", sum(masses.values()), "")]
@@ -144,7 +144,7 @@ def _shares(structure: Structure) -> Real:
     return np.stack([np.stack(more) - whole for more in doubled])
 
 
-def _named(structure: Structure, p: Real) -> dict[str, float]:
+def _name_values(structure: Structure, p: Real) -> dict[str, float]:
     return dict(zip(structure.parameters, map(float, p), strict=True))
 
 

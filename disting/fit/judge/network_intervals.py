@@ -108,7 +108,7 @@ def network_intervals(
     wide = float(t_distribution.isf(OUTSIDE / 2, freedom))
     lowest = float(whitened.total(plant.response(best[None]))[0])
     count = max(whitened.n_residuals - len(best), 1)
-    felt, growth = _felt(plant, whitened, best)
+    felt, growth = _effect_of_values(plant, whitened, best)
     valley = _Valley(plant, whitened, best, lowest, max(1.0, lowest / count), felt, growth)
     most = limit(1, freedom, level=OUTSIDE)
     straight = STRAIGHT if np.all(relative < UNKNOWN) else 0.0
@@ -125,7 +125,9 @@ def network_intervals(
     return found
 
 
-def _felt(plant: AnyNetworkPlant, whitened: WhitenedCost, best: Real) -> tuple[Real, Real]:
+def _effect_of_values(
+    plant: AnyNetworkPlant, whitened: WhitenedCost, best: Real
+) -> tuple[Real, Real]:
     """Return `felt` and `growth` of a valley."""
 
     def effects(p: Real) -> Real:

@@ -99,7 +99,7 @@ def _near_bases(
     s = np.asarray(1j * omega, dtype=np.complex128)
     wanted = impedance(at, s)
     fits = sorted(
-        (_fitted(start, wanted, omega, rho) for start in starts_on_base(chain, at)),
+        (_fit_base(start, wanted, omega, rho) for start in starts_on_base(chain, at)),
         key=lambda fit: fit[0],
     )
     near = dict[str, LookAlike]()
@@ -162,7 +162,7 @@ def damping_share(chain: Chain, values: Mapping[str, float]) -> float:
     return max(float(np.exp(np.mean(np.log(np.maximum(soft, SOFT))))), SOFT)
 
 
-def _fitted(
+def _fit_base(
     start: Mapping[str, float], wanted: Complex, omega: Real, rho: Real
 ) -> tuple[float, dict[str, float]]:
     """T and the values of the best base near a start."""
@@ -232,12 +232,14 @@ def machines_outside(
     if task.bounds or any(task.fixed.values()):  # a damper fixed to zero is none
         return ()
     pairs = zip((task.cost, judging), scatters, strict=True)
-    fitted, judged = (_seen(candidate, replace(task, cost=cost), known) for cost, known in pairs)
+    fitted, judged = (
+        _prepare_judging(candidate, replace(task, cost=cost), known) for cost, known in pairs
+    )
     found = [
         outside
         for machine in _machines(candidate, bases)
         if all(0 < value < inf for value in machine.start.values())
-        for outside in _judged(
+        for outside in _judge_machine(
             machine, _with_friction_shown(machine, fitted), judged, candidate.n_parameters
         )
     ]
@@ -273,7 +275,7 @@ class _Seen:
         return np.clip(np.nan_to_num(found, nan=BEYOND), -BEYOND, BEYOND)
 
 
-def _seen(candidate: Candidate, task: Task, known: Scatter) -> _Seen:
+def _prepare_judging(candidate: Candidate, task: Task, known: Scatter) -> _Seen:
     response = task.plant(candidate.chain).response(values_of(candidate.estimate, task))
     (part,) = task.cost.parts
     s = np.asarray(1j * part.measured.omega, dtype=np.complex128)
@@ -304,7 +306,7 @@ def _search(machine: _Machine, fitted: _Seen, steps: int = STEPS) -> Values:
     start = np.log([machine.start[name] for name in names])
 
     def residual(logarithms: Real) -> Real:
-        return fitted.residual(machine, _named(names, logarithms))
+        return fitted.residual(machine, _name_values(names, logarithms))
 
     found = least_squares(
         residual,
@@ -313,14 +315,14 @@ def _search(machine: _Machine, fitted: _Seen, steps: int = STEPS) -> Values:
         x_scale="jac",
         max_nfev=steps,
     )
-    return _named(names, found.x)
+    return _name_values(names, found.x)
 
 
-def _named(names: Sequence[str], logarithms: Real) -> Values:
+def _name_values(names: Sequence[str], logarithms: Real) -> Values:
     return dict(zip(names, map(float, np.exp(logarithms)), strict=True))
 
 
-def _judged(
+def _judge_machine(
     machine: _Machine, values: Values, judged: _Seen, n_parameters: int
 ) -> Iterator[Outside]:
     """Find machines other than the chain with this number of parameters that the judged data
@@ -329,13 +331,13 @@ def _judged(
     cost, known = judged.whitened.cost, judged.whitened.known
     own, other = judged.whitened.residual(judged.response), judged.residual(machine, values)
     (part,) = cost.parts
-    said = explanation(other, np.ones(other.size), part, known)
-    chance = limit(max(1, len(values) - n_parameters), known.freedom) * max(1.0, said.chi2)
+    fitted = explanation(other, np.ones(other.size), part, known)
+    chance = limit(max(1, len(values) - n_parameters), known.freedom) * max(1.0, fitted.chi2)
 
     def is_shown(kept: NDArray[np.bool_]) -> bool:
         return float(np.sum(own[kept] ** 2 - other[kept] ** 2)) > chance
 
-    if not said.explains or float(other @ other - own @ own) > chance:
+    if not fitted.explains or float(other @ other - own @ own) > chance:
         return
     is_better = lone_lines(own, other, line_frequencies(cost), is_shown) is None
     there = judged.factor / machine.impedance(values, judged.s)
@@ -344,7 +346,7 @@ def _judged(
         machine.kind,
         machine.text(values),
         dict(sorted(values.items())),
-        said.chi2,
+        fitted.chi2,
         is_better,
         apart,
     )

@@ -94,7 +94,7 @@ def bad_lines(candidates: Sequence[Candidate], best: Candidate, task: Task) -> s
     for candidate in sorted(candidates, key=lambda c: (c.n_parameters, c.j_train)):
         if candidate.n_parameters > best.n_parameters:
             break
-        lines, share = _isolated(_missed(candidate.estimate, task))
+        lines, share = _isolate_lines(_square_misfit(candidate.estimate, task))
         if len(lines):
             hertz = ", ".join(f"{task.cost.measured.frequency[i]:.5g}" for i in sorted(lines))
             name = reference(candidate.chain)
@@ -109,14 +109,14 @@ def bad_lines(candidates: Sequence[Candidate], best: Candidate, task: Task) -> s
     return None
 
 
-def _missed(fit: Estimate, task: Task) -> Real:
+def _square_misfit(fit: Estimate, task: Task) -> Real:
     """The squared residual of each line, shape (n_f,)."""
     values = np.array([fit.parameters[name] for name in task.names(fit.chain)])
     residual = task.cost.residual(task.plant(fit.chain).response(values))
     return np.asarray((residual.reshape(2, -1) ** 2).sum(axis=0))
 
 
-def _isolated(missed: Real) -> tuple[list[int], float]:
+def _isolate_lines(missed: Real) -> tuple[list[int], float]:
     """The one or two lines that make most of a misfit, their neighbours hardly any, and their
     share.
     """
@@ -196,15 +196,15 @@ def quantity_readings(
     others = list[tuple[float, QuantityReading]]()
     for quantity in (q for q in MODELLED if q is not taken):
         progress(f"read as {quantity.value}", len(others), len(MODELLED) - 1)
-        shifted = _shifted(task.cost.measured, taken.order - quantity.order)
-        seen = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
+        shifted = _differentiate(task.cost.measured, taken.order - quantity.order)
+        own_task = replace(task, cost=replace(task.cost.parts[0], measured=shifted))
         chains = dict.fromkeys((*_small(own), *_with_and_without_lag(nearest.chain)))
-        fits = estimates(tuple(chains), seen, store=store, executor=executor).values()
-        best = min(fits, key=lambda fit: _criterion(fit, seen))
-        size, said = _criterion(best, seen), unseen_explanation(best, seen, most)
+        fits = estimates(tuple(chains), own_task, store=store, executor=executor).values()
+        best = min(fits, key=lambda fit: _criterion(fit, own_task))
+        size, found = _criterion(best, own_task), unseen_explanation(best, own_task, most)
         takes_its_place = imitated and quantity.order == taken.order - 1
-        if said.is_near and (size <= before + AS_WELL or takes_its_place):
-            others.append((size, QuantityReading(quantity, best, said.chi2)))
+        if found.is_near and (size <= before + AS_WELL or takes_its_place):
+            others.append((size, QuantityReading(quantity, best, found.chi2)))
     if not others:
         return ()
     chi2 = unseen_explanation(nearest, task, most).chi2
@@ -242,7 +242,7 @@ def _integrates(fit: Estimate, measured: FrequencyResponse) -> bool:
     return bool(corner_of(fit.parameters) < measured.frequency[0])
 
 
-def _shifted(measured: FrequencyResponse, steps: int) -> FrequencyResponse:
+def _differentiate(measured: FrequencyResponse, steps: int) -> FrequencyResponse:
     """The response differentiated so many times more."""
     factor = measured.omega**steps
     return replace(
@@ -287,10 +287,10 @@ def better_sign(task: Task, candidates: Sequence[Chain]) -> Task:
     """The sign with which candidates fit better, the best of the largest and the smallest ones of
     each size; of further responses each is tried together with the first one.
     """
-    asked = _extremes(candidates)
+    few = _extremes(candidates)
     cost = task.cost.thinned(SEARCHED)
     first = replace(task, cost=cost.parts[0])
-    the_task = _better([replace(first, sign=sign) for sign in (1, -1)], asked)
+    the_task = _better([replace(first, sign=sign) for sign in (1, -1)], few)
     if not isinstance(task.cost, JointCost):
         return replace(task, sign=the_task.sign)
     setups = [cost.setups[0]]
@@ -299,7 +299,7 @@ def better_sign(task: Task, candidates: Sequence[Chain]) -> Task:
             JointCost((cost.parts[0], part), (cost.setups[0], replace(setup, sign=sign, delay="")))
             for sign in (1, -1)
         ]
-        best = _better([replace(the_task, cost=pair) for pair in pairs], asked)
+        best = _better([replace(the_task, cost=pair) for pair in pairs], few)
         setups.append(replace(setup, sign=best.cost.setups[1].sign))
     whole = replace(task.cost, setups=tuple(setups))
     return replace(task, sign=the_task.sign, cost=whole)
@@ -310,11 +310,11 @@ def pilot(task: Task, candidates: Sequence[Chain]) -> Callable[[AnyCost], list[C
     them bends no more, so that neighbouring lines show what they scatter by.
     """
     least = min(c.n_masses for c in candidates)
-    asked = _extremes([c for c in candidates if c.n_masses <= max(PILOT, least)])
+    few = _extremes([c for c in candidates if c.n_masses <= max(PILOT, least)])
     own_estimates = estimates(
-        asked, task.thinned(SEARCHED)
+        few, task.thinned(SEARCHED)
     )  # and smaller chains, which may lack a place
-    estimate = min((own_estimates[chain] for chain in asked), key=lambda e: e.j)
+    estimate = min((own_estimates[chain] for chain in few), key=lambda e: e.j)
     p = np.array([estimate.parameters[n] for n in task.names(estimate.chain)])
     return lambda cost: [replace(task, cost=cost).plant(estimate.chain).response(p)]
 
@@ -395,11 +395,11 @@ def _views(loose: Chain, largest: Chain, task: Task) -> Iterator[tuple[str, Chai
     for quantity in MODELLED:
         if quantity is not data.sensor:
             cost = replace(first, measured=replace(data, sensor=quantity))
-            seen = replace(loose, sensor=quantity)
-            yield f"read as {quantity.value}", seen, replace(task, cost=cost)
+            view = replace(loose, sensor=quantity)
+            yield f"read as {quantity.value}", view, replace(task, cost=cost)
             yield (
                 f"read as {quantity.value} with the sign reversed",
-                seen,
+                view,
                 replace(reversed_sensor, cost=cost),
             )
     for words, response in _misread(data):
@@ -417,7 +417,7 @@ def _misread(data: FrequencyResponse) -> Iterator[tuple[str, Complex]]:
     """The response if the phases, the gains or the sampling were others than assumed."""
     yield "with the sign of all phases (of the imaginary parts) turned", data.G.conj()
     size = np.abs(data.G)
-    if any(ASSUMED_LINEAR in said for said in (*data.notes, *data.doubts)) and size.max() < MOST_DB:
+    if any(ASSUMED_LINEAR in note for note in (*data.notes, *data.doubts)) and size.max() < MOST_DB:
         yield "with gains in dB (--unit magnitude=dB)", 10.0 ** (size / 20) * data.G / size
     for ratio in HELD:
         rate = ratio * data.frequency[-1]

@@ -148,7 +148,7 @@ def margins(chain: Chain, p: Real, controller: Controller) -> Margins:
     lost = np.flatnonzero(tracked < 10 ** (-3 / 20))
     return Margins(
         stable=_unstable_poles(gain, _growth(chain, controller)) == 0,
-        crossover=_crossed(omega, size, int(falling[0])) / (2 * pi)
+        crossover=_find_crossing(omega, size, int(falling[0])) / (2 * pi)
         if len(falling)
         else float("nan"),
         phase=min((_between(size, turned, int(k)) for k in crossings), default=inf) * 180 / pi,
@@ -158,7 +158,7 @@ def margins(chain: Chain, p: Real, controller: Controller) -> Margins:
     )
 
 
-def _crossed(omega: Real, size: Real, k: int) -> float:
+def _find_crossing(omega: Real, size: Real, k: int) -> float:
     """omega where |L| = 1 between two lines, by logarithms."""
     share = np.log(size[k]) / np.log(size[k] / size[k + 1])
     return float(omega[k] * (omega[k + 1] / omega[k]) ** share)

@@ -82,10 +82,10 @@ def with_twins(
     """Each fitted structure, then its twins; `omega`: lines of the data [rad/s]."""
     for member, sample in zip(left, fitted, strict=True):
         yield sample
-        yield from (_carried(twin, sample, omega) for twin in member.twins)
+        yield from (_carry_draws(twin, sample, omega) for twin in member.twins)
 
 
-def _carried(twin: Twin, sample: ParameterSamples, omega: Real) -> ParameterSamples:
+def _carry_draws(twin: Twin, sample: ParameterSamples, omega: Real) -> ParameterSamples:
     """The twin, drawn along with the structure whose twin it is: Newton's steps from its own
     values, the smallest where there are several.
     """
@@ -276,7 +276,7 @@ def _spread(values: Iterable[float]) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _joined(
+def _join_ranges(
     name: str,
     unit: str,
     ranges: Sequence[tuple[float, float]],
@@ -287,8 +287,8 @@ def _joined(
     cause = ""
     if isfinite(high) and high > WIDE * low:
         cause = WITHIN if any(above > WIDE * below for below, above in ranges) else BETWEEN
-    said = "; ".join(filter(None, [note, cause]))
-    return Statement(Kind.RANGE, name, low, high, unit, *numbers, said)
+    remarks = "; ".join(filter(None, [note, cause]))
+    return Statement(Kind.RANGE, name, low, high, unit, *numbers, remarks)
 
 
 def total_inertia(every: Sequence[ParameterSamples], family: str) -> Statement:
@@ -297,7 +297,7 @@ def total_inertia(every: Sequence[ParameterSamples], family: str) -> Statement:
     for sample in every:
         at = [i for i, name in enumerate(sample.chain.parameters) if name[0] == "m"]
         ranges.append(_spread(sample.p[:, at].sum(axis=1)))
-    return _joined("total inertia", "", ranges, (len(ranges), len(ranges)), family)
+    return _join_ranges("total inertia", "", ranges, (len(ranges), len(ranges)), family)
 
 
 def _roots(fitted: Sequence[ParameterSamples], band: tuple[float, float]) -> Iterator[Statement]:
@@ -314,13 +314,13 @@ def _roots(fitted: Sequence[ParameterSamples], band: tuple[float, float]) -> Ite
                 for sample, roots in zip(fitted, nominal, strict=True)
             ]
             having = [(sample, own) for sample, own in near if own is not None]
-            follow = [_followed(sample, roots_of, own) for sample, own in having]
+            follow = [_follow_root(sample, roots_of, own) for sample, own in having]
             numbers = (sum(sample.alike for sample, _ in having), total)
             name = f"{kind} {number}"
             hertz = [_spread(abs(r) / (2 * pi) for r in roots) for roots in follow]
             damping = [_spread(-r.real / abs(r) for r in roots) for roots in follow]
-            yield _joined(name, "Hz", hertz, numbers)
-            yield _joined(f"damping ratio of {name}", "", damping, numbers)
+            yield _join_ranges(name, "Hz", hertz, numbers)
+            yield _join_ranges(f"damping ratio of {name}", "", damping, numbers)
 
 
 def _roots_at(sample: ParameterSamples, roots_of: Callable[..., Complex], k: int) -> Complex:
@@ -328,7 +328,7 @@ def _roots_at(sample: ParameterSamples, roots_of: Callable[..., Complex], k: int
     return roots_of(structure, sample.p[k, : len(structure.parameters)])
 
 
-def _followed(
+def _follow_root(
     sample: ParameterSamples, roots_of: Callable[..., Complex], root: complex
 ) -> list[complex]:
     """The root in all draws in which it is still there."""
@@ -368,8 +368,8 @@ def _apart(
         within = np.max(ends[:, 1, at] - ends[:, 0, at]) > WIDE_LEVEL
         cause = WITHIN if within else BETWEEN
     where = f"largest at {omega[at] / (2 * pi):.3g} Hz, between {_hertz(omega)} Hz"
-    said = "; ".join(filter(None, [where, note, cause]))
-    return Statement(Kind.APART, name, 0.0, float(size[at]), "dB", total, total, said)
+    remarks = "; ".join(filter(None, [where, note, cause]))
+    return Statement(Kind.APART, name, 0.0, float(size[at]), "dB", total, total, remarks)
 
 
 def _hertz(omega: Real) -> str:
@@ -415,21 +415,23 @@ def _margins(
     yield Statement(Kind.STABLE, "closed loop", 1.0, 1.0, "", sum(firm), total)
     if sum(firm) < total:
         return  # margins of an unstable loop say nothing
-    crossed = _ranged(own_margins, lambda m: m.crossover)
+    crossed = _ranges_of(own_margins, lambda m: m.crossover)
     low, high = omega[0] / (2 * pi), omega[-1] / (2 * pi)
     outside = any(not (low <= x <= high) for pair in crossed for x in pair)
     note = "the crossover may lie outside the measured band" if outside else ""
-    yield _joined("crossover", "Hz", crossed, numbers, note)
-    yield _joined("phase margin", "deg", _ranged(own_margins, lambda m: m.phase), numbers, note)
-    gains = _ranged(own_margins, lambda m: 20 * log10(m.gain) if isfinite(m.gain) else inf)
-    yield _joined("gain margin", "dB", gains, numbers)
-    yield _joined(
-        "peak of the sensitivity", "", _ranged(own_margins, lambda m: m.sensitivity), numbers
+    yield _join_ranges("crossover", "Hz", crossed, numbers, note)
+    yield _join_ranges(
+        "phase margin", "deg", _ranges_of(own_margins, lambda m: m.phase), numbers, note
     )
-    yield _joined("bandwidth", "Hz", _ranged(own_margins, lambda m: m.bandwidth), numbers)
+    gains = _ranges_of(own_margins, lambda m: 20 * log10(m.gain) if isfinite(m.gain) else inf)
+    yield _join_ranges("gain margin", "dB", gains, numbers)
+    yield _join_ranges(
+        "peak of the sensitivity", "", _ranges_of(own_margins, lambda m: m.sensitivity), numbers
+    )
+    yield _join_ranges("bandwidth", "Hz", _ranges_of(own_margins, lambda m: m.bandwidth), numbers)
 
 
-def _ranged(
+def _ranges_of(
     own_margins: Sequence[Sequence[Margins]], value: Callable[[Margins], float]
 ) -> list[tuple[float, float]]:
     return [_spread(map(value, own)) for own in own_margins]

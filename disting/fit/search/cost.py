@@ -265,7 +265,9 @@ def lines_by_deviation(measured: FrequencyResponse) -> Real:
         raise InputError(
             "weights by standard deviation need a response that carries one; choose other weights"
         )
-    return _scaled(np.abs(measured.G) / np.maximum(measured.deviation, 1e-12 * np.abs(measured.G)))
+    return _scale_weights(
+        np.abs(measured.G) / np.maximum(measured.deviation, 1e-12 * np.abs(measured.G))
+    )
 
 
 def lines_by_coherence(measured: FrequencyResponse) -> Real:
@@ -282,10 +284,10 @@ def lines_by_coherence(measured: FrequencyResponse) -> Real:
             "weights by coherence need a response that carries one; choose other weights"
         )
     squared = np.clip(measured.coherence, 0.0, 1.0 - 1e-9)
-    return _scaled(np.sqrt(squared / (1.0 - squared)))
+    return _scale_weights(np.sqrt(squared / (1.0 - squared)))
 
 
-def _scaled(weights: Real) -> Real:
+def _scale_weights(weights: Real) -> Real:
     size = sqrt(float(np.mean(weights**2)))
     if not size > 0:
         raise InputError("all lines have weight zero")

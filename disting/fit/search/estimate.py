@@ -162,7 +162,9 @@ def estimate(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> E
     """
     task = task.on(chain)
     first = sha256(str(chain).encode()).digest()[0] % task.divided
-    starts = _stacked(list(_starts(chain, task, estimates))[first :: task.divided], chain, task)
+    starts = _stack_starts(
+        list(_starts(chain, task, estimates))[first :: task.divided], chain, task
+    )
     return _best(chain, task, estimates, starts)
 
 
@@ -183,7 +185,7 @@ def improve(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Es
     task = task.on(chain)
     own, names, size = estimates[chain], task.names(chain), scale(task.cost.measured)
     offered = [_common(estimates[c]) for c in neighbours(chain) if c in estimates]
-    starts = _stacked(
+    starts = _stack_starts(
         [start for fit in offered for start in carry_over(chain, fit, size)], chain, task
     )
     plant, box = task.plant(chain), task.box(names)
@@ -192,7 +194,7 @@ def improve(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Es
     p, j = np.array([own.parameters[name] for name in names]), own.j
     if costs[i] < j * (1 - GAIN):
         p, j = fine(plant, task.cost, box, points[i])
-    p, j = _nested(chain, task, estimates, p, j)
+    p, j = _refit_contained(chain, task, estimates, p, j)
     tried = tuple(sorted([*own.costs, *map(float, costs)]))
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, tried, own.valleys)
 
@@ -206,7 +208,7 @@ def refine(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Est
     own, names = estimates[chain], task.names(chain)
     start = np.array([own.parameters[name] for name in names])
     p, j = fine(task.plant(chain), task.cost, task.box(names), start)
-    p, j = _nested(chain, task, estimates, p, j)
+    p, j = _refit_contained(chain, task, estimates, p, j)
     share = j / own.j if own.j else 1.0
     costs = tuple(share * cost for cost in own.costs)
     return Estimate(chain, dict(zip(names, map(float, p), strict=True)), j, costs, own.valleys)
@@ -222,7 +224,7 @@ def _best(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate], starts:
         across, there = _across_lines(plant, task.cost, box, nearest)
         ends, reached = np.concatenate([ends, across]), np.append(reached, there)
     p, j = fine(plant, task.cost, box, ends[int(np.argmin(reached))])
-    p, j = _nested(chain, task, estimates, p, j)
+    p, j = _refit_contained(chain, task, estimates, p, j)
     return Estimate(
         chain,
         dict(zip(names, map(float, p), strict=True)),
@@ -245,7 +247,7 @@ def _across_lines(plant: Plant, cost: AnyCost, box: Box, points: Real) -> tuple[
     return rough(plant, cost, box, points, SHORT)
 
 
-def _nested(
+def _refit_contained(
     chain: Chain, task: Task, estimates: Mapping[Chain, Estimate], p: Real, j: float
 ) -> tuple[Real, float]:
     """Parameters and cost that are no worse than those of a candidate which this one contains."""
@@ -266,11 +268,11 @@ def embedded(chain: Chain, contained: Estimate, task: Task) -> Real:
     """
     names, size = task.names(chain), scale(task.cost.measured)
     near = embeddings(chain, contained.chain, _common(contained), size)
-    starts = _stacked([_own(contained) | dict(start) for start in near], chain, task)
+    starts = _stack_starts([_own(contained) | dict(start) for start in near], chain, task)
     return task.box(names).clipped(starts) if len(starts) else starts
 
 
-def _stacked(starts: Sequence[Parameters], chain: Chain, task: Task) -> Real:
+def _stack_starts(starts: Sequence[Parameters], chain: Chain, task: Task) -> Real:
     """Starts as an array; a dead time of a single response is that of all where a start has
     none.
     """
@@ -302,9 +304,9 @@ def different(costs: Real, most: int) -> list[int]:
 def _starts(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> Iterator[Parameters]:
     """All starts of one candidate."""
     size = scale(task.cost.measured)
-    seen = list(from_extrema(chain, task.cost.measured))
-    seen += at_modes(chain, task.cost.measured, task.sign)
-    yield from seen
+    found = list(from_extrema(chain, task.cost.measured))
+    found += at_modes(chain, task.cost.measured, task.sign)
+    yield from found
     for joint, fewer in merge(chain):
         if fewer in estimates:
             yield from split(chain, joint, _common(estimates[fewer]), size)
@@ -318,4 +320,4 @@ def _starts(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> It
     for fewer in shorten(chain):
         if fewer in estimates:
             yield from extend(chain, _common(estimates[fewer]), size)
-    yield from random(chain, size, task.seed, FEW if seen else MANY)
+    yield from random(chain, size, task.seed, FEW if found else MANY)

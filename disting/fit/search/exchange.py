@@ -81,7 +81,7 @@ def estimates(
                 own_estimates[the_estimate.chain] = the_estimate
                 progress("fit", len(own_estimates), len(wanted))
         if method is None:
-            for the_estimate in _exchanged(
+            for the_estimate in _exchange_estimates(
                 {c: own_estimates[c] for c in fellows}, task, store, executor
             ):
                 own_estimates[the_estimate.chain] = the_estimate
@@ -126,7 +126,7 @@ def explore(own_estimates: Iterable[Estimate], task: Task) -> tuple[Task, list[E
     ]
 
 
-def _exchanged(
+def _exchange_estimates(
     own_estimates: dict[Chain, Estimate], task: Task, store: Store, executor: Executor | None
 ) -> Iterator[Estimate]:
     """Better estimates of variants of one chain, from the fits of neighbours that have changed,

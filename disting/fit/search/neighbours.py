@@ -98,7 +98,7 @@ def split_starts(
     if masses.min() < SMALLEST * masses.max():
         return
     order = 1 if chain.act_plus == 1 else -1
-    poles, zeros = _undamped(masses[::order], springs[::order])
+    poles, zeros = _undamped_modes(masses[::order], springs[::order])
     softness = (
         sum(v for name, v in fewer.items() if name[0] == "d") / springs.sum()
         if springs.size
@@ -115,11 +115,11 @@ def split_starts(
                 if all(0 < value < inf for part in more for value in part):
                     yield {
                         **rest,
-                        **_named(chain, rest, more[0][::order], more[1][::order], softness),
+                        **_name_values(chain, rest, more[0][::order], more[1][::order], softness),
                     }
 
 
-def _named(
+def _name_values(
     chain: Chain,
     rest: Parameters,
     masses: Sequence[float],
@@ -142,7 +142,7 @@ def _named(
     return values
 
 
-def _undamped(masses: Real, springs: Real) -> tuple[Real, Real]:
+def _undamped_modes(masses: Real, springs: Real) -> tuple[Real, Real]:
     """Poles but the one of the free motion, and zeros [rad/s] of the undamped free chain, driven
     and measured at its first mass.
     """
@@ -181,13 +181,13 @@ def conspicuous(measured: FrequencyResponse, response: Complex) -> list[float]:
     missed = np.log(np.abs(ratio)) + 1j * np.angle(ratio)
     centres = measured.omega[:: -(-len(measured.omega) // CENTRES)]
     parts = np.array_split(centres, -(-len(centres) * len(missed) // TOGETHER))
-    gains = [_explained(missed, measured.omega / part[:, None]) for part in parts]
+    gains = [_explained_part(missed, measured.omega / part[:, None]) for part in parts]
     gain = np.concatenate([[0.0], *gains, [0.0]])
     peaks = np.flatnonzero((gain[1:-1] > gain[:-2]) & (gain[1:-1] >= gain[2:]))
     return [float(centres[i]) for i in peaks[np.argsort(-gain[1 + peaks], kind="stable")[:PAIRS]]]
 
 
-def _explained(missed: Complex, x: Real) -> Real:
+def _explained_part(missed: Complex, x: Real) -> Real:
     """|h'e|^2 / h'h of e = `missed` at x = omega/omega_0, shape (centres, lines), for the better
     of two damping ratios.
     """

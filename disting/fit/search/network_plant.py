@@ -62,21 +62,21 @@ class NetworkPlant:
 
     def response(self, p: Real) -> Complex:
         """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p)."""
-        x = _solved(self._matrix(p), self._input)
+        x = _solve_moved(self._matrix(p), self._input)
         return np.asarray(self._front * (x @ self._output))
 
     def logarithmic_gradient(self, p: Real) -> tuple[Complex, Complex]:
         """G, shape (..., n_f), and d ln G / d p, shape (..., n_p, n_f)."""
         matrix = self._matrix(p)
-        x = _solved(matrix, self._input)
-        y = _solved(matrix.swapaxes(-1, -2), self._output)
+        x = _solve_moved(matrix, self._input)
+        y = _solve_moved(matrix.swapaxes(-1, -2), self._output)
         whole = x @ self._output
         # where G is too small for a number its logarithm is taken as constant
         share = np.divide(1, whole, out=np.zeros_like(whole), where=whole != 0)
         gradient = np.zeros((*p.shape, self.omega.size), dtype=np.complex128)
         for e, pulls, feels in self._terms:
             power = self._power(e, p)
-            felt, pulled = self._seen(feels, x, p), self._seen(pulls, y, p)
+            felt, pulled = self._project(feels, x, p), self._project(pulls, y, p)
             if e.value:
                 at = self._at[e.value]
                 slope = -1 / p[..., at, None] ** 2 if e.kind.divides else 1.0
@@ -103,7 +103,7 @@ class NetworkPlant:
                     values[..., i - 1, j - 1] += term * (self._size(u, p) * self._size(v, p))
         return values
 
-    def _seen(self, side: Sized, z: Complex, p: Real) -> Complex:
+    def _project(self, side: Sized, z: Complex, p: Real) -> Complex:
         """v.x or u.y, shape (..., n_f)."""
         return np.asarray(sum(self._size(w, p) * z[..., i - 1] for i, w in side.items()))
 
@@ -126,8 +126,11 @@ class NetworkPlant:
     @cached_property
     def _terms(self) -> tuple[tuple[Element, Sized, Sized], ...]:
         """The elements with u and v over the unknowns."""
-        sides = ((e, self._placed(e.pulls), self._placed(e.feels)) for e in self._plain.elements)
-        return tuple((e, _sized(pulls), _sized(feels)) for e, pulls, feels in sides)
+        sides = (
+            (e, self._place_entries(e.pulls), self._place_entries(e.feels))
+            for e in self._plain.elements
+        )
+        return tuple((e, _size_entries(pulls), _size_entries(feels)) for e, pulls, feels in sides)
 
     @cached_property
     def _plain(self) -> Network:
@@ -143,7 +146,7 @@ class NetworkPlant:
         more = self.network.is_directed or any(e.ratio for e in self._plain.elements)
         return sensor.minus if sensor.plus and not more else 0
 
-    def _placed(self, side: Entries) -> Entries:
+    def _place_entries(self, side: Entries) -> Entries:
         """A vector u, v, b or c over the unknowns, of which the ground takes the place of the
         reference.
         """
@@ -175,7 +178,7 @@ class NetworkPlant:
 
     def _vector(self, port: Port) -> Complex:
         values = np.zeros(len(self._plain.nodes), dtype=np.complex128)
-        for i, x in self._placed(port.ends).items():
+        for i, x in self._place_entries(port.ends).items():
             values[i - 1] = float(x)
         return values
 
@@ -247,11 +250,11 @@ def network_plant(network: Network, omegas: Sequence[Real]) -> AnyNetworkPlant:
     return NetworkPlants(network, tuple(omegas))
 
 
-def _sized(side: Entries) -> Sized:
+def _size_entries(side: Entries) -> Sized:
     return {i: x if isinstance(x, str) else float(x) for i, x in side.items()}
 
 
-def _solved(matrix: Complex, side: Complex) -> Complex:
+def _solve_moved(matrix: Complex, side: Complex) -> Complex:
     """Solutions, shape (..., n_f, n); a matrix that is singular, as without damping at a resonance,
     is moved by a rounding error.
     """

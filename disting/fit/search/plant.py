@@ -85,14 +85,14 @@ class Plant:
         part of it.
         """
         ports, pivots = self.structure.ports, self._pivots(p)
-        return Motion(*pivots, _solved(*pivots, ports.act_minus, ports.act_plus, self.still))
+        return Motion(*pivots, _solve_motion(*pivots, ports.act_minus, ports.act_plus, self.still))
 
     def response(self, p: Real, motion: "Motion | None" = None) -> Complex:
         """G(j omega), shape (..., n_f), of parameter vectors `p`, shape (..., n_p), in one
         system of units; `motion` where it is known.
         """
         ports, x = self.structure.ports, (motion or self.motion(p)).x
-        return self._shown(self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus))
+        return self._observe(self._factor(p) * _difference(x, ports.meas_minus, ports.meas_plus))
 
     @np.errstate(all="ignore")
     def logarithmic_gradient(
@@ -122,7 +122,7 @@ class Plant:
             gradient[..., -1, :] = -s
         return self._shown_with(self._factor(p) * receptance, gradient)
 
-    def _shown(self, response: Complex) -> Complex:
+    def _observe(self, response: Complex) -> Complex:
         """Observed values, shape (..., n_f), of responses, shape (..., n)."""
         if self.observation is None:
             return response
@@ -133,8 +133,8 @@ class Plant:
         """The same with d ln G / d p, shape (..., n_p, n)."""
         if self.observation is None:
             return response, gradient
-        whole = self._shown(response)
-        slope = self._shown(response[..., None, :] * gradient)
+        whole = self._observe(response)
+        slope = self._observe(response[..., None, :] * gradient)
         return whole, np.asarray(slope / whole[..., None, :])
 
     def _factor(self, p: Real) -> Complex:
@@ -232,7 +232,7 @@ class Motion:
 
     def adjoint(self, ports: Ports, still: tuple[int, ...]) -> Complex:
         """Displacements under a force at the sensor, y of the module's formulas."""
-        return _solved(self.coupling, self.pivots, ports.meas_minus, ports.meas_plus, still)
+        return _solve_motion(self.coupling, self.pivots, ports.meas_minus, ports.meas_plus, still)
 
 
 def _rows(at: list[int]) -> Rows:
@@ -244,7 +244,7 @@ def _rows(at: list[int]) -> Rows:
     )
 
 
-def _solved(
+def _solve_motion(
     coupling: Complex, pivots: Complex, minus: int, plus: int, still: tuple[int, ...]
 ) -> Complex:
     """Displacements of ground and masses, shape (..., 1 + N, n_f), for a unit force on `plus`

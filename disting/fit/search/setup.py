@@ -64,11 +64,11 @@ class Setup:
     def text(self) -> str:
         """The setup in words."""
         ports = (("force", self.force), ("sensor", self.sensor))
-        said = [f"{name} {place}" for name, place in ports if place]
+        words = [f"{name} {place}" for name, place in ports if place]
         for change in self.changes:
             size = "" if change.size is None else f"{float(change.size):g}"
-            said.append(change.kind.text.format(at=change.place, size=size))
-        return ", ".join(said) or "the first response"
+            words.append(change.kind.text.format(at=change.place, size=size))
+        return ", ".join(words) or "the first response"
 
     def experiment(self, n: int) -> Experiment:
         """Experiment on a chain of n masses, without quantity, sign and dead time; raises
@@ -86,8 +86,8 @@ class Setup:
         changes = tuple(change.moved(str) for change in experiment.changes)
         return replace(
             self,
-            sensor=_written(experiment.sensor),
-            force=_written(experiment.force),
+            sensor=_write_place(experiment.sensor),
+            force=_write_place(experiment.force),
             changes=changes,
         )
 
@@ -147,10 +147,10 @@ def _ends(text: str, n: int) -> tuple[int, int]:
     return minus, plus
 
 
-def _written(place: Place | None) -> str:
+def _write_place(place: Place | None) -> str:
     """A port as it is written, "" where it is that of the chain.
 
-    >>> _written((2, 0)), _written((3, 1))
+    >>> _write_place((2, 0)), _write_place((3, 1))
     ('2', '1:3')
     """
     if place is None:

@@ -76,19 +76,19 @@ def from_extrema(chain: Chain, measured: FrequencyResponse) -> Iterator[Paramete
     if not is_seen_at_one_end(chain):
         return
     size = scale(measured)
-    seen, wanted = extrema(measured), chain.n_masses - 1
+    found, wanted = extrema(measured), chain.n_masses - 1
     supposed = [(w, 1.1 * w) for w in np.geomspace(0.6 * size.low, 1.5 * size.high, GRID)]
-    for kept in range(min(len(seen), wanted), max(min(len(seen), wanted) - 2, -1), -1):
+    for kept in range(min(len(found), wanted), max(min(len(found), wanted) - 2, -1), -1):
         for more in (
             combinations(supposed, wanted - kept)
             if wanted - kept <= 2
             else [tuple(supposed[-(wanted - kept) :])]
         ):
-            masses, springs = cauer(size.mass, sorted([*seen[:kept], *more]))
+            masses, springs = cauer(size.mass, sorted([*found[:kept], *more]))
             if chain.act_plus != 1:
                 masses, springs = masses[::-1], springs[::-1]
             if min([*masses, *springs], default=0.0) > 0:
-                yield _filled(chain, size, masses, springs)
+                yield _fill_start(chain, size, masses, springs)
 
 
 def at_modes(chain: Chain, measured: FrequencyResponse, sign: int) -> Iterator[Parameters]:
@@ -96,7 +96,7 @@ def at_modes(chain: Chain, measured: FrequencyResponse, sign: int) -> Iterator[P
     size = scale(measured)
     for masses, springs, late in from_modes(chain, measured, sign):
         times = {"Td": late, "T1": late} if chain.lag != chain.dead_time else {}
-        start = dict(_filled(chain, size, masses, springs))
+        start = dict(_fill_start(chain, size, masses, springs))
         yield start | {name: times.get(name, late / 2) for name in ("T1", "Td") if name in start}
 
 
@@ -179,8 +179,8 @@ def split(chain: Chain, joint: int, fewer: Parameters, size: Scale) -> Iterator[
     a grid.
     """
     names, whole = chain.parameters, fewer[f"m{joint}"]
-    kept = {_renumbered(name, joint): value for name, value in fewer.items()}
-    spring = next(n for n in names if n[0] == "k" and _left(n) == joint)
+    kept = {_renumber(name, joint): value for name, value in fewer.items()}
+    spring = next(n for n in names if n[0] == "k" and _left_number(n) == joint)
     for share in SHARES:
         parts = {f"m{joint}": (1 - share) * whole, f"m{joint + 1}": share * whole}
         reduced = share * (1 - share) * whole
@@ -189,23 +189,23 @@ def split(chain: Chain, joint: int, fewer: Parameters, size: Scale) -> Iterator[
             both = [n for n in (f"b{joint}", f"b{joint + 1}") if n in names]
             damper = fewer.get(f"b{joint}", 0.0)
             start |= {name: damper / len(both) for name in both}
-            yield _completed(names, start, size)
+            yield _complete_start(names, start, size)
 
 
-def _renumbered(name: str, joint: int) -> str:
+def _renumber(name: str, joint: int) -> str:
     """Name of an element behind the joint after the split: numbers grow by one; joints are
     named by both neighbours.
     """
     if name[0] == "T":
         return name
-    left = _left(name)
+    left = _left_number(name)
     if name[0] in "mb":
         return f"{name[0]}{left + (left > joint)}"
     left += left >= joint
     return f"{name[0]}{left}{left + 1}" if left < 9 else f"{name[0]}{left}_{left + 1}"
 
 
-def _left(name: str) -> int:
+def _left_number(name: str) -> int:
     """Number of a mass or of a joint's left neighbour."""
     digits = name[1:].split("_")[0]
     return int(digits) if name[0] in "mb" or "_" in name else int(digits[0])
@@ -218,7 +218,7 @@ def extend(
     shares of their natural sizes.
     """
     missing = [n for n in chain.parameters if n not in fewer]
-    natural = _completed(chain.parameters, fewer, size)
+    natural = _complete_start(chain.parameters, fewer, size)
     for factor in factors:
         yield natural | {name: factor * natural[name] for name in missing}
 
@@ -249,7 +249,7 @@ def random(chain: Chain, size: Scale, seed: str, count: int) -> Iterator[Paramet
     for _ in range(count):
         omegas = np.exp(source.uniform(log(size.low), log(size.high), n))
         shares = source.dirichlet(np.ones(n))
-        natural = _filled(
+        natural = _fill_start(
             chain, size, size.mass * shares, (size.mass * omegas**2 / n)[: n - (chain.gap == 0)]
         )
         yield {
@@ -257,7 +257,7 @@ def random(chain: Chain, size: Scale, seed: str, count: int) -> Iterator[Paramet
         }
 
 
-def _filled(
+def _fill_start(
     chain: Chain, size: Scale, masses: Sequence[float] | Real, springs: Sequence[float] | Real
 ) -> Parameters:
     """A start from masses and springs in their order, the rest at natural sizes."""
@@ -265,10 +265,10 @@ def _filled(
     values = dict(zip(kinds["m"], map(float, masses), strict=True)) | dict(
         zip(kinds["k"], map(float, springs), strict=False)
     )
-    return _completed(chain.parameters, values, size)
+    return _complete_start(chain.parameters, values, size)
 
 
-def _completed(names: Sequence[str], entries: Parameters, size: Scale) -> dict[str, float]:
+def _complete_start(names: Sequence[str], entries: Parameters, size: Scale) -> dict[str, float]:
     """All parameters; dampers in parallel with springs follow the springs."""
     values = dict(entries)
     for name in names:
@@ -289,6 +289,6 @@ def stack(starts: Sequence[Parameters], names: Sequence[str]) -> Real:
 def natural(chain: Chain, size: Scale) -> Parameters:
     """Natural sizes of all parameters: equal masses, resonances in the middle of the band."""
     share = size.mass / chain.n_masses
-    return _filled(
+    return _fill_start(
         chain, size, [share] * chain.n_masses, [share * size.low * size.high] * chain.n_masses
     )

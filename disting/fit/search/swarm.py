@@ -54,7 +54,7 @@ def by_swarm(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> E
         parts = np.array_split(x, len(x) // BATCH)
         return np.concatenate([task.cost.total(plant.response(np.exp(part))) for part in parts])
 
-    algorithm = _moved(costs, low, high, _seed(task))
+    algorithm = _run_swarm(costs, low, high, _seed(task))
     best = np.exp(np.asarray(algorithm.opt[0].X, dtype=float))
     return Estimate(
         chain,
@@ -64,7 +64,7 @@ def by_swarm(chain: Chain, task: Task, estimates: Mapping[Chain, Estimate]) -> E
     )
 
 
-def _moved(costs: Callable[[Real], Real], low: Real, high: Real, seed: int) -> Any:
+def _run_swarm(costs: Callable[[Real], Real], low: Real, high: Real, seed: int) -> Any:
     """pymoo's swarm over a box, moved until it converges; raises InputError without pymoo."""
     try:
         from pymoo.algorithms.soo.nonconvex.pso import PSO

@@ -11,12 +11,12 @@ def trees(masses: int) -> Iterator[Sequence[Edge]]:
     """Yield the trees of masses, free and with one spring to the ground."""
     pairs = list(combinations(range(1, masses + 1), 2))
     for chosen in combinations(pairs, masses - 1):
-        if len(_connected(1, chosen)) == masses:
+        if len(_reachable_from(1, chosen)) == masses:
             yield chosen
             yield from ((*chosen, (0, i)) for i in range(1, masses + 1))
 
 
-def _connected(start: int, edges: Sequence[Edge]) -> set[int]:
+def _reachable_from(start: int, edges: Sequence[Edge]) -> set[int]:
     nodes = {start}
     while more := {j for e in edges if nodes & set(e) for j in e} - nodes:
         nodes |= more

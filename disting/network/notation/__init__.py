@@ -131,5 +131,5 @@ def values_in(text: str, notation: str = "") -> dict[str, Fraction]:
         ):
             letters = {e.value: e for e in network.elements}
             inside = braces(text, DIALECTS[each])
-            return values_of_braces({letters[name]: said for name, said in inside.items()})
+            return values_of_braces({letters[name]: value for name, value in inside.items()})
     return {}

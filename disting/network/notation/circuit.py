@@ -126,7 +126,7 @@ def circuit(text: str, dialect: Dialect, name: str) -> Network:
     """
     whole, _ = _parse(text, dialect)
     port = (Port(1),)
-    return Network(tuple(_placed(whole, 1, 0, count(2))), port, port, name=name)
+    return Network(tuple(_place_part(whole, 1, 0, count(2))), port, port, name=name)
 
 
 def braces(text: str, dialect: Dialect) -> dict[str, str]:
@@ -176,16 +176,16 @@ class Parallel:
 Part = str | Series | Parallel
 
 
-def _placed(part: Part, start: int, end: int, new: Iterator[int]) -> Iterator[Element]:
+def _place_part(part: Part, start: int, end: int, new: Iterator[int]) -> Iterator[Element]:
     """Yield the elements of a part between two nodes; `new` numbers further ones."""
     match part:
         case Parallel(parts):
             for each in parts:
-                yield from _placed(each, start, end, new)
+                yield from _place_part(each, start, end, new)
         case Series(parts):
             nodes = [start, *islice(new, len(parts) - 1), end]
             for each, (a, b) in zip(parts, pairwise(nodes), strict=True):
-                yield from _placed(each, a, b, new)
+                yield from _place_part(each, a, b, new)
         case str():
             yield Element(part, part[0], (start, end))
 

@@ -64,7 +64,7 @@ def of_flows(
         raise InputError(f"the flow from {a} to {b} is there twice: leave one away")
     nodes = sorted({i for flow in flows for i in flow} - {0} | {*inputs, *outputs})
     elements = [Element("", "v", (i,)) for i in nodes]
-    elements += [Element(_named(a, b), "a", (a, b)) for a, b in flows]
+    elements += [Element(_flow_name(a, b), "a", (a, b)) for a, b in flows]
     ports = [tuple(Port(i) for i in side) for side in (inputs, outputs)]
     return Network(tuple(elements), ports[0], ports[1], name=name)
 
@@ -88,7 +88,7 @@ def space_of_flows(network: Network) -> tuple[list[list[str]], list[list[int]], 
     return [[entry or "0" for entry in row] for row in a], b, c
 
 
-def _named(a: int, b: int) -> str:
+def _flow_name(a: int, b: int) -> str:
     return f"a{a}{b}" if max(a, b) < 10 else f"a{a}_{b}"
 
 

@@ -120,7 +120,7 @@ def _read(component: Any, built: _Places) -> None:
         parent = entry.get("parent")
         meshes = before[-1] if before and before[-1].is_gear else None
         if parent is not None:
-            meshes = _known(f"{name}.{parent}", built)
+            meshes = _look_up(f"{name}.{parent}", built)
         is_gear = entry["type"] == "GearElement"
         start = built.new() if is_gear and meshes is not None else place
         place = built.new() if entry["type"] == "ShaftDiscrete" else start
@@ -147,14 +147,14 @@ def _connect(pair: object, built: _Places) -> None:
         raise InputError(
             f'a connection is a pair such as ["Motor.Rotor", "Load.Disk"], not {short(pair)}'
         )
-    first, second = (_known(name, built) for name in pair)
+    first, second = (_look_up(name, built) for name in pair)
     if first.is_gear and second.is_gear:
         built.meshing.append((first, second))
     else:
         built.joined.append((first.end, second.start))
 
 
-def _known(name: str, built: _Places) -> _Part:
+def _look_up(name: str, built: _Places) -> _Part:
     if name not in built.named:
         raise InputError(f"{short(name)} is no element; there are {enumeration(built.named)}")
     return built.named[name]

@@ -90,8 +90,8 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
     points = enough(ChainModel(structure).minor_size(None), settings.points)
     proof = proof_tangents(structure, settings.seed, points)
     rank = max(t.rank for t in proof)
-    seen = basis(structure, proof, rank, settings.seed)
-    rank_grade = _rank_grade(structure, rank, seen)
+    rows = basis(structure, proof, rank, settings.seed)
+    rank_grade = _rank_grade(structure, rank, rows)
     solutions = listing(chain, max(len(t.rows) for t in proof), settings.seed)
     _refuse_contradictions(chain, rank, solutions)
     level, grade = judge(len(chain.parameters), rank, rank_grade, solutions)
@@ -105,9 +105,9 @@ def _canonically(chain: Chain, settings: Settings) -> Identifiability:
         most=solutions.most,
         count_grade=solutions.grade,
         alternatives=tuple(m.said for m in solutions.members),
-        singles=tuple(combination(c, solutions) for c in seen.singles),
-        basis=tuple(combination(c, solutions) for c in seen.chosen),
-        safety=seen.safety,
+        singles=tuple(combination(c, solutions) for c in rows.singles),
+        basis=tuple(combination(c, solutions) for c in rows.chosen),
+        safety=rows.safety,
         renamings=renamings(chain),
         self_dual=is_self_dual(chain),
         point=tuple((name, str(value)) for name, value in solutions.point.items()),
@@ -209,10 +209,10 @@ Judgement = tuple[Answer, Certainty]
 
 def combination(candidate: Candidate, solutions: Listing) -> Combination:
     """The candidate with the answer that the listed solutions give."""
-    return Combination(candidate.formula, candidate.name, *_judged(candidate, solutions))
+    return Combination(candidate.formula, candidate.name, *_judge_candidate(candidate, solutions))
 
 
-def _judged(candidate: Candidate, solutions: Listing) -> Judgement:
+def _judge_candidate(candidate: Candidate, solutions: Listing) -> Judgement:
     """Different at a solution that exists: NO. Equal at all exact ones, none other: YES. The
     rest rests on balls or is open.
     """

@@ -150,7 +150,7 @@ def _sentence(answer: Identifiability) -> str:
     many = len(answer.parameters)
     head = plural(many, "parameter")
     if answer.level is Level.NOT:
-        return f"{head}, only {answer.rank} determinable: {_listed(answer.basis)}."
+        return f"{head}, only {answer.rank} determinable: {_list_basis(answer.basis)}."
     return f"{head}, all determinable; {_rest(answer)}."
 
 
@@ -163,7 +163,7 @@ def _number(count: int) -> str:
     return NUMBERS[count] if count < len(NUMBERS) else str(count)
 
 
-def _listed(basis: tuple[Combination, ...]) -> str:
+def _list_basis(basis: tuple[Combination, ...]) -> str:
     """Formulas, then the coefficients that are only named."""
     formulas = [c.text for c in basis if not c.is_named]
     named = sorted(c.name for c in basis if c.is_named)
@@ -185,14 +185,14 @@ def _rest(answer: Identifiability) -> str:
         texts = " and ".join(r.text for r in answer.exchanges)
         many = f"{_number(answer.least)} {answer.domain} parameter vectors"
         return f"{many} give the same behaviour: unique up to exchanging {texts}"
-    return f"{_count(answer)} give the same behaviour{_known(answer)}{_point(answer)}"
+    return f"{_count(answer)} give the same behaviour{_describe_known(answer)}{_point(answer)}"
 
 
 def _over_domain(answer: Identifiability) -> str:
     """The number over a domain in which it differs from that over complex parameters."""
     if answer.level is Level.GLOBAL:
         return f"no other {answer.domain} parameters give the same behaviour"
-    return count_in_words(answer) + _known(answer)
+    return count_in_words(answer) + _describe_known(answer)
 
 
 def _over_complex(answer: Identifiability) -> str:
@@ -211,7 +211,7 @@ def _count(answer: Identifiability) -> str:
     return f"{_number(answer.most)} {kind} parameter vectors"
 
 
-def _known(answer: Identifiability) -> str:
+def _describe_known(answer: Identifiability) -> str:
     exchanges = [f"exchanging {r.text} changes nothing" for r in answer.renamings]
     dual = ["each is the dual (mirror image at the gap) of another"] * answer.self_dual
     return f": {' and '.join([*exchanges, *dual])}" if exchanges or dual else ""

@@ -57,7 +57,7 @@ def find_chain_over_domain(
 def _merge(found: Identifiability, solutions: Solutions | None, domain: Domain) -> Identifiability:
     order = solutions.order if solutions else 1 + len(found.renamings)
     least, most, grade = _bounds(found, solutions, domain)
-    sampled, varies = _sampled(found, solutions, domain)
+    sampled, varies = _sample_counts(found, solutions, domain)
     is_full = found.level is not Level.NOT
     exchanged = is_full and most == order
     answers = _answers(found, solutions, domain)
@@ -103,7 +103,7 @@ def _bounds(
     return (most if most == solutions.order else least), most, weakest(grade, solutions.grade)
 
 
-def _sampled(
+def _sample_counts(
     found: Identifiability, solutions: Solutions | None, domain: Domain
 ) -> tuple[tuple[int, ...], bool]:
     """The numbers of vectors at random values: those of the list, if it is complete, come last."""

@@ -31,13 +31,13 @@ def confirms(answer: Identifiability, chain: Chain, seed: str = "verify") -> boo
     ) == answer.rank == len(answer.basis)
     return (
         ranks
-        and all(_seen(answer, t) for t in fresh)
-        and _renamed(answer, chain)
-        and _counted(answer, chain)
+        and all(_check_combinations(answer, t) for t in fresh)
+        and _check_renamings(answer, chain)
+        and _check_count(answer, chain)
     )
 
 
-def _seen(answer: Identifiability, at: Tangent) -> bool:
+def _check_combinations(answer: Identifiability, at: Tangent) -> bool:
     """The combinations lie in the row space and are independent; of the parameters, only those
     listed lie in it.
     """
@@ -50,7 +50,7 @@ def _seen(answer: Identifiability, at: Tangent) -> bool:
     )
 
 
-def _renamed(answer: Identifiability, chain: Chain) -> bool:
+def _check_renamings(answer: Identifiability, chain: Chain) -> bool:
     """Every renaming is an identity of formulas."""
     plain = {name: name for name in chain.parameters}
     return all(
@@ -59,7 +59,7 @@ def _renamed(answer: Identifiability, chain: Chain) -> bool:
     )
 
 
-def _counted(answer: Identifiability, chain: Chain) -> bool:
+def _check_count(answer: Identifiability, chain: Chain) -> bool:
     """As many solutions at the stored point as are listed, or as follows from a theorem; nothing to
     check where they are not all.
     """

@@ -86,7 +86,7 @@ class Candidates:
         for power in (1, -1):
             for kind in "mkdb":
                 terms = [((name, power),) for name in self.structure.parameters if name[0] == kind]
-                yield from self._combined(terms)
+                yield from self._combine_terms(terms)
 
     def products(self) -> Iterator[Candidate]:
         """Products of powers: a basis of all that are identifiable, and sums and differences of
@@ -111,7 +111,7 @@ class Candidates:
                 for m in masses
                 if m.at in (j.at, j.at + 1)
             ]
-            yield from self._combined([((above, 1), (below, -1)) for above, below in pairs])
+            yield from self._combine_terms([((above, 1), (below, -1)) for above, below in pairs])
 
     def coefficients(self) -> Iterator[Candidate]:
         """The coefficients of the transfer function, the denominator made monic."""
@@ -122,10 +122,10 @@ class Candidates:
         for letter, parts in (("a", bottoms), ("b", tops)):
             for i, part in enumerate(parts):
                 yield from (
-                    Candidate(f, f"{letter}{i}") for f in self._divided(part.to_dict(), lead)
+                    Candidate(f, f"{letter}{i}") for f in self._divide_by_lead(part.to_dict(), lead)
                 )
 
-    def _divided(self, part: Terms, lead: Terms) -> Iterator[Formula]:
+    def _divide_by_lead(self, part: Terms, lead: Terms) -> Iterator[Formula]:
         """part/lead; nothing where it is constant. The ring's first symbol is s."""
         ((below, scale),) = lead.items()
         names = ("s", *self.structure.parameters)
@@ -141,7 +141,7 @@ class Candidates:
         if any(exponents for _, exponents in terms):
             yield Formula(tuple(terms))
 
-    def _combined(self, terms: Sequence[Exponents]) -> Iterator[Candidate]:
+    def _combine_terms(self, terms: Sequence[Exponents]) -> Iterator[Candidate]:
         if len(terms) < 2:
             return
         functions = [Formula(((1, e),)) for e in terms]

@@ -177,9 +177,9 @@ def local(model: Model, settings: Settings) -> Local:
     """
     names, size = model.parameters, model.minor_size(None)
     points = enough(size, settings.points)
-    seen = list(samples(model, Representation.TF, 0, points, settings.seed))
-    rank, columns = identifiable_columns(seen)
-    bits = safety(size, len(seen)) - len(seen) - ceil(log2(len(names) + 1))
+    drawn = list(samples(model, Representation.TF, 0, points, settings.seed))
+    rank, columns = identifiable_columns(drawn)
+    bits = safety(size, len(drawn)) - len(drawn) - ceil(log2(len(names) + 1))
     _, left = grade_of(rank == len(names), bits)
     return Local(rank, tuple(names[j] for j in columns), left)
 
@@ -207,9 +207,9 @@ def by_parameter(
     """Levels from the Jacobian and the ideal of a generic fibre; `sure` are known to be global and
     are none of the map's.
     """
-    asked = [name for name in local.names if name not in sure]
-    values = one_value(model, asked, seed=settings.seed)
-    levels = dict.fromkeys(asked, Level.UNKNOWN) | dict.fromkeys(sure, Level.GLOBAL)
+    open_ones = [name for name in local.names if name not in sure]
+    values = one_value(model, open_ones, seed=settings.seed)
+    levels = dict.fromkeys(open_ones, Level.UNKNOWN) | dict.fromkeys(sure, Level.GLOBAL)
     levels |= dict.fromkeys(values.unique, Level.GLOBAL) | dict.fromkeys(
         values.several, Level.LOCAL
     )

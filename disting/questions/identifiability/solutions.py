@@ -122,7 +122,7 @@ def _listing(chain: Chain, invariants: int, point: Mapping[str, fmpq], whole: Fi
             whole.reason,
         )
     others = [
-        _other(s, _existence(chain, s, invariants)) for s in _unmatched(whole.solutions, exact)
+        _other(s, _existence(chain, s, invariants)) for s in _find_unmatched(whole.solutions, exact)
     ]
     least = len(exact) + sum(m.said.certainty is not Certainty.NUMERICAL for m in others)
     grade = _grade(chain, whole)
@@ -156,11 +156,13 @@ def images(chain: Chain, point: Mapping[str, fmpq]) -> list[Member]:
     """
     symmetric = renamings(chain)
     members = [Member(point, _exact(Origin.GIVEN, ""))]
-    members += [Member(_moved(point, r), _exact(Origin.SYMMETRY, r.text)) for r in symmetric]
+    members += [Member(_move_point(point, r), _exact(Origin.SYMMETRY, r.text)) for r in symmetric]
     if is_self_dual(chain):
         image = dual(chain, point)
         members.append(Member(image, _exact(Origin.DUALITY, "")))
-        members += [Member(_moved(image, r), _exact(Origin.DUALITY, r.text)) for r in symmetric]
+        members += [
+            Member(_move_point(image, r), _exact(Origin.DUALITY, r.text)) for r in symmetric
+        ]
     return members
 
 
@@ -168,12 +170,12 @@ def _exact(origin: Origin, note: str) -> Alternative:
     return Alternative(origin, Answer.YES, Answer.YES, Certainty.THEOREM, note)
 
 
-def _moved(point: Mapping[str, fmpq], renaming: Renaming) -> dict[str, fmpq]:
+def _move_point(point: Mapping[str, fmpq], renaming: Renaming) -> dict[str, fmpq]:
     moved = {new: point[old] for old, new in renaming.moved}
     return {name: moved.get(name, value) for name, value in point.items()}
 
 
-def _unmatched(solutions: tuple[Solution, ...], exact: list[Member]) -> list[Solution]:
+def _find_unmatched(solutions: tuple[Solution, ...], exact: list[Member]) -> list[Solution]:
     """The solutions that are none of those known exactly; raises ContradictionError if one of
     these is missing.
     """

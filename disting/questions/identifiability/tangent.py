@@ -65,12 +65,12 @@ def tangent(where: DrawnPoint) -> Tangent:
     >>> found.rank, len(found.kernel)
     (2, 1)
     """
-    seen = seen_at(where, Representation.TF, 0)
-    kernel, nullity = seen.jacobian.nullspace()
+    sampled = seen_at(where, Representation.TF, 0)
+    kernel, nullity = sampled.jacobian.nullspace()
     columns = kernel.transpose().tolist()[: int(nullity)]
     vectors = tuple(tuple(int(x) for x in column) for column in columns)
     values = dict(zip(where.model.parameters, where.point, strict=True))
-    return Tangent(values, where.modulus, tuple(filter(any, seen.rows)), vectors)
+    return Tangent(values, where.modulus, tuple(filter(any, sampled.rows)), vectors)
 
 
 def proof_tangents(structure: Structure, seed: str, points: int) -> tuple[Tangent, ...]:
@@ -96,14 +96,14 @@ def combinations(seen: Sequence[Tangent], terms: Sequence[Formula]) -> list[list
 
     Candidates, no proof. There must be at least as many kernel vectors in all as there are terms.
     """
-    return _solved(seen, lambda t: [f.gradient(t.values, t.modulus) for f in terms])
+    return _solve_weights(seen, lambda t: [f.gradient(t.values, t.modulus) for f in terms])
 
 
 def monomials(seen: Sequence[Tangent]) -> list[list[int]]:
     """Short integer exponents a such that the product of p_i^a_i is identifiable at the points
     used; candidates likewise.
     """
-    return _solved(seen, _logarithms)
+    return _solve_weights(seen, _logarithms)
 
 
 def most_invariants(structure: Structure) -> int:
@@ -118,7 +118,9 @@ def _logarithms(t: Tangent) -> Slopes:
     return [[x if i == j else 0 for j in range(len(inverse))] for i, x in enumerate(inverse)]
 
 
-def _solved(seen: Sequence[Tangent], gradients: Callable[[Tangent], Slopes]) -> list[list[int]]:
+def _solve_weights(
+    seen: Sequence[Tangent], gradients: Callable[[Tangent], Slopes]
+) -> list[list[int]]:
     rows: list[list[int]] = []
     for t in seen:
         slopes = gradients(t)

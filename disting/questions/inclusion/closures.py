@@ -77,7 +77,7 @@ def of_closure(small: Chain, large: Chain, seed: str) -> tuple[Outside | RowsIns
         steps = [proof.step for _, proof in rows if proof is not None]
         if steps and len(steps) == len(rows) and all(step.why in SUPPORTS for step in steps):
             return RowsInside(True, tuple(steps)), 0
-    if not _covered(structure, other, f"{seed}:{small}:poles"):
+    if not _covers_splits(structure, other, f"{seed}:{small}:poles"):
         return None
     against = _against(splits, seed)
     if against is None:
@@ -132,7 +132,7 @@ def confirms_rows(evidence: Outside | RowsInside, small: Chain, large: Chain) ->
             split in named_splits for split in ways
         )
     else:
-        complete = named_splits == set(ways) and _covered(structure, other, "verify:poles")
+        complete = named_splits == set(ways) and _covers_splits(structure, other, "verify:poles")
     sides = all(
         (step.why in SUPPORTS) == isinstance(evidence, RowsInside) for step in evidence.steps
     )
@@ -149,7 +149,7 @@ def _alike(structure: Structure, other: Structure) -> bool:
     return is_plain(structure) and is_plain(other) and kinds[0] == kinds[1]
 
 
-def _covered(structure: Structure, other: Structure, label: str) -> bool:
+def _covers_splits(structure: Structure, other: Structure, label: str) -> bool:
     """Return True if no other splits are possible: the theorem of `splits` applies, or the larger
     chain is one row.
     """

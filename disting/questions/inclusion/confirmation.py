@@ -245,15 +245,15 @@ def _ranks(rows: Labels, a: Chain, b: Chain) -> tuple[int, int] | None:
     """Ranks of named invariants of both chains at fresh points; None for coefficients if they have
     different numbers of poles.
     """
-    seen = [
+    ranks = [
         list(samples(ChainModel(c.structure), Representation.TF, 0, POINTS, "inclusion"))
         for c in (a, b)
     ]
     small_rank, large_rank = (
         max(s.rank(tuple(i for i, x in enumerate(s.labels) if x in rows)) for s in each)
-        for each in seen
+        for each in ranks
     )
-    poles = {sum(x[0] == "a" for x in each[0].labels) for each in seen}
+    poles = {sum(x[0] == "a" for x in each[0].labels) for each in ranks}
     return (small_rank, large_rank) if len(poles) == 1 or rows == ("Td",) else None
 
 
@@ -261,11 +261,11 @@ def _same_elsewhere(free: Labels, a: Chain, b: Chain) -> bool:
     """Return True if all invariants but the free ones have the same values in both chains at fresh
     points, absent ones zero.
     """
-    seen = [
+    drawn = [
         list(samples(ChainModel(c.structure), Representation.TF, 0, POINTS, "inclusion"))
         for c in (a, b)
     ]
-    values = [[dict(zip(s.labels, s.values, strict=True)) for s in each] for each in seen]
+    values = [[dict(zip(s.labels, s.values, strict=True)) for s in each] for each in drawn]
     poles = {sum(x[0] == "a" for x in each[0]) for each in values}
     labels = {*values[0][0], *values[1][0]} - set(free)
     return len(poles) == 1 and all(

@@ -249,15 +249,15 @@ def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
 
 def asked_closure(left: ChainSide, right: ChainSide) -> InclusionFinding:
     """CLOSURE as the answerer computes it."""
-    return _asked(CLOSURE, left, right)
+    return _ask_question(CLOSURE, left, right)
 
 
 def asked_image(left: ChainSide, right: ChainSide) -> InclusionFinding:
     """IMAGE as the answerer computes it."""
-    return _asked(IMAGE, left, right)
+    return _ask_question(IMAGE, left, right)
 
 
-def _asked(
+def _ask_question(
     question: Question[InclusionFinding], left: ChainSide, right: ChainSide
 ) -> InclusionFinding:
     answer = left.answerer(question, by_rank(left, right), left.settings)

@@ -49,7 +49,7 @@ def find_containment(small: Chain, large: Chain, seed: str) -> Containment | Non
         return None
     target = position(small)
     for steps, rows in islice(_results(target, large), MODELS):
-        decided = _decided(target, join(rows), seed)
+        decided = _decide_rows(target, join(rows), seed)
         safety = decided.safety - ceil(log2(MODELS))  # any of the models tried may mislead
         solved = decided.evidence
         if (
@@ -125,7 +125,9 @@ def _fit(rows: Sequence[Row]) -> bool:
     return not any(row.grounded for row in rows[1:]) and not any(row.ground_dampers for row in rows)
 
 
-def _decided(target: Structure, result: Structure, seed: str) -> Decision[Solutions | Refutation]:
+def _decide_rows(
+    target: Structure, result: Structure, seed: str
+) -> Decision[Solutions | Refutation]:
     equal = least_rank(target) == least_rank(result)
     return decide(
         *map(coefficient_map, (target, result)), equal_rank=equal, seed=seed, limits=LIMITS

@@ -152,17 +152,23 @@ def specialise(row: Row) -> Iterator[Specialisation]:
     """
     n = row.n_masses
     for k in row.joints:
-        yield from _made(row, Spring(k), INFINITE, [max(i - (i > k), 0) for i in range(n + 1)])
-        yield from _made(row, Spring(k), ZERO, [i if i <= k else None for i in range(n + 1)])
-        yield from _made(row, Spring(k), ZERO, [i - k if i > k else None for i in range(n + 1)])
+        yield from _make_limits(
+            row, Spring(k), INFINITE, [max(i - (i > k), 0) for i in range(n + 1)]
+        )
+        yield from _make_limits(row, Spring(k), ZERO, [i if i <= k else None for i in range(n + 1)])
+        yield from _make_limits(
+            row, Spring(k), ZERO, [i - k if i > k else None for i in range(n + 1)]
+        )
     for k in range(1, n + 1):
-        yield from _made(row, Mass(k), INFINITE, [i - k if i >= k else None for i in range(n + 1)])
+        yield from _make_limits(
+            row, Mass(k), INFINITE, [i - k if i >= k else None for i in range(n + 1)]
+        )
         if not row.grounded:
-            yield from _made(
+            yield from _make_limits(
                 row, Mass(k), INFINITE, [k - i if 0 < i <= k else None for i in range(n + 1)]
             )
     for k in row.ground_dampers:
-        yield from _made(row, GroundDamper(k), ZERO, list(range(n + 1)))
+        yield from _make_limits(row, GroundDamper(k), ZERO, list(range(n + 1)))
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -199,7 +205,7 @@ def is_limit(row: Row, s: Specialisation) -> bool:
     >>> all(is_limit(row, s) for row in (Row(2, False, 1, 1),) for s in specialise(row))
     True
     """
-    moved = _moved(row, s)
+    moved = _move_parameters(row, s)
     if moved is None:
         return False
     ring = symbols(["s", *row.structure.parameters])
@@ -207,17 +213,17 @@ def is_limit(row: Row, s: Specialisation) -> bool:
     values = ring | dict.fromkeys(
         {Damper(s.element.at).parameter} & ring.keys() if s.element.kind == "k" else (), zero
     )
-    num, den = _written(row, values)
+    num, den = _write_receptance(row, values)
     num, den = (_part(p, s.element.parameter, s.limit) for p in (num, den))
     new = {name: sum((values[old] for old in olds), zero) for name, olds in moved.items()}
-    small_num, small_den = _written(s.row, new | {"s": ring["s"]})
+    small_num, small_den = _write_receptance(s.row, new | {"s": ring["s"]})
     # what is left over, such as the minor of a row that was split off, is a common factor; cross
     # products would be larger by far
     factor, rest = divmod(den, small_den)
     return not den.is_zero() and rest.is_zero() and (num - factor * small_num).is_zero()
 
 
-def _made(
+def _make_limits(
     row: Row, element: Element, limit: str, nodes: list[int | None]
 ) -> Iterator[Specialisation]:
     """The row of the nodes that are left; none if a port is lost, or if nothing is left."""
@@ -236,7 +242,7 @@ def _made(
     )
 
 
-def _written(row: Row, values: dict[str, Polynomial]) -> tuple[Polynomial, Polynomial]:
+def _write_receptance(row: Row, values: dict[str, Polynomial]) -> tuple[Polynomial, Polynomial]:
     """Numerator and denominator of the receptance for these elements and s of a ring."""
     return plain_receptance(row.structure, values, values["s"], values["s"] ** 0)
 
@@ -249,7 +255,7 @@ def _part(polynomial: Polynomial, name: str, limit: str) -> Polynomial:
     return parts[1] if len(parts) > 1 else parts[0] - parts[0]
 
 
-def _moved(row: Row, s: Specialisation) -> dict[str, list[str]] | None:
+def _move_parameters(row: Row, s: Specialisation) -> dict[str, list[str]] | None:
     """Parameters of the new row, and those given that add up to each: what comes together is
     added, what drops out left out.
 

@@ -97,7 +97,7 @@ def excluding_points(small: Chain, large: Chain, label: str) -> Points:
     Each is taken modulo the prime of a label of its own, see `labels`. () if none are found.
     """
     models = (
-        split_model(small, trial) if _covered(small, large) else None for trial in labels(label)
+        split_model(small, trial) if _covers(small, large) else None for trial in labels(label)
     )
     points = tuple(split.point for split in islice(models, 1) if split is not None)
     if points and excludes(small, large, label, points):
@@ -112,7 +112,7 @@ def excludes(small: Chain, large: Chain, label: str, points: Points) -> bool:
     """
     count = len(accelerate(small).parameters)
     if (
-        not _covered(small, large)
+        not _covers(small, large)
         or len(points) not in (1, TRIALS)
         or any(len(point) != count for point in points)
     ):
@@ -134,7 +134,7 @@ def exclusion_safety(large: Chain) -> int:
     return TRIALS * equation_safety(canonical_rows(large.structure)[GROUNDED])
 
 
-def _covered(small: Chain, large: Chain) -> bool:
+def _covers(small: Chain, large: Chain) -> bool:
     """A larger chain with a gap, dampers in parallel with the springs of both or of none, no other
     dampers and no lag.
     """

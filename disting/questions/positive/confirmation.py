@@ -43,13 +43,13 @@ def proves(finding: PositiveFinding, chain: Chain, other: Chain) -> bool:
     stated certainty.
     """
     evidence = finding.evidence
-    if evidence is None or (finding.share, finding.certainty) != _shown(evidence):
+    if evidence is None or (finding.share, finding.certainty) != _share_of(evidence):
         return False
     bounded = finding.safety <= safety_of_point(without_dead_time(other))
     return bounded and confirms(evidence, chain, other)
 
 
-def _shown(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
+def _share_of(evidence: PositiveEvidence) -> tuple[Share, Certainty]:
     """Share that evidence of this kind shows, and how surely."""
     match evidence:
         case Theorem() | BoxMap():

@@ -72,7 +72,7 @@ def random_point(chain: Chain, label: str, ranges: Mapping[str, Range] | None = 
     """
     names = chain.parameters
     return {
-        name: _drawn(*(ranges or {}).get(name, LIKELY), r / (1 << 40))
+        name: _draw_between(*(ranges or {}).get(name, LIKELY), r / (1 << 40))
         for name, r in zip(names, residues(f"positivity:{label}", len(names), 1 << 40), strict=True)
     }
 
@@ -96,7 +96,7 @@ def equivalent(chain: Chain, point: Point, other: Chain) -> Answer:
     positive. UNKNOWN otherwise.
     """
     if other.damped:
-        return _damped(target(chain.structure, point), other)
+        return _decide_damped(target(chain.structure, point), other)
     if chain.gap == other.gap and distances(chain) == distances(other):
         pairs = zip(rows(other), receptances(chain, point), strict=True)
         return _all(_row(row, t) for row, t in pairs)
@@ -123,7 +123,7 @@ def _row(row: Row, t: Target) -> Answer:
     )
 
 
-def _damped(whole: Target, other: Chain) -> Answer:
+def _decide_damped(whole: Target, other: Chain) -> Answer:
     whole_fibre = fibre(other, whole, confirm=False)
     listed = whole_fibre.status is Status.COMPLETE and not whole_fibre.tests.boundary
     none = listed and all(s.positive is Answer.NO for s in whole_fibre.solutions)
@@ -135,7 +135,7 @@ def _all(answers: Iterable[Answer]) -> Answer:
     return next((a for a in (Answer.NO, Answer.UNKNOWN) if a in answered), Answer.YES)
 
 
-def _drawn(low: Fraction, high: Fraction, share: float) -> fmpq:
+def _draw_between(low: Fraction, high: Fraction, share: float) -> fmpq:
     """low (high/low)^share, cut to few bits and kept inside; from a range that begins at 0 its
     upper three decades.
     """

@@ -83,8 +83,8 @@ def within_ranges(
     not have.
     """
     refuse(chain, other)
-    _known(chain, limits.chain)
-    _known(other, limits.other)
+    _check_names(chain, limits.chain)
+    _check_names(other, limits.other)
     inside = next(
         (BoxMap(tuple(m.items())) for m in renamings(chain, other) if _maps(m, limits)), None
     )
@@ -100,7 +100,7 @@ def within_ranges(
         not fixed or anywhere.evidence == Exclusion(Obstacle.DECAY)
     ):
         return anywhere
-    return _sampled(chain, other, limits, (settings or Settings()).seed, tries)
+    return _sample_ranges(chain, other, limits, (settings or Settings()).seed, tries)
 
 
 def confirms_within(evidence: BoxMap | Points, chain: Chain, other: Chain, limits: Ranges) -> bool:
@@ -138,7 +138,9 @@ def equivalent_within(chain: Chain, point: Point, other: Chain, box: Mapping[str
     return Answer.NO if complete and set(places) <= {Answer.NO} else Answer.UNKNOWN
 
 
-def _sampled(chain: Chain, other: Chain, limits: Ranges, seed: str, tries: int) -> PositiveFinding:
+def _sample_ranges(
+    chain: Chain, other: Chain, limits: Ranges, seed: str, tries: int
+) -> PositiveFinding:
     """Finding of short points, confirmed by long ones near them."""
     points = [random_point(chain, f"ranges:{seed}:{k}", limits.chain) for k in range(tries)]
     answers = [equivalent_within(chain, point, other, limits.other) for point in points]
@@ -265,7 +267,7 @@ def _is_of(point: Point, chain: Chain, limits: Ranges) -> bool:
     return inside and sorted(point) == sorted(chain.parameters)
 
 
-def _known(chain: Chain, side: Mapping[str, Range]) -> None:
+def _check_names(chain: Chain, side: Mapping[str, Range]) -> None:
     strange = sorted(set(side) - set(chain.parameters))
     if strange:
         raise InputError(

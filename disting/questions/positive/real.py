@@ -87,7 +87,9 @@ def real_witness(chain: Chain, other: Chain, seed: str) -> PointText:
     if not plain or always_real(chain, other):
         return ()
     label = f"real:{seed}:{full_text(chain)}:{full_text(other)}"
-    points = (_signed(random_point(chain, f"{label}:{k}"), f"{label}:{k}") for k in range(TRIES))
+    points = (
+        _sign_point(random_point(chain, f"{label}:{k}"), f"{label}:{k}") for k in range(TRIES)
+    )
     return next((spell(p) for p in points if lacks_real(chain, p, other)), ())
 
 
@@ -124,7 +126,7 @@ def _candidates(chain: Chain, point: Point, other: Chain) -> Iterator[list[Facto
     elif len(searched) == 1:
         yield [_numerator(whole, *searched)]
     elif is_collocated(other):
-        yield from _shared(whole, *searched)
+        yield from _share_poles(whole, *searched)
     elif alike:
         pairs = zip(searched, receptances(chain, point), strict=True)
         yield [_numerator(t, row) for row, t in pairs]
@@ -136,7 +138,7 @@ def _numerator(t: Target, row: Row) -> Factor:
     return t.balls.numerator, row.numerator_degree, row.a - 1
 
 
-def _shared(whole: Target, grounded: Row, free: Row) -> Iterator[list[Factor]]:
+def _share_poles(whole: Target, grounded: Row, free: Row) -> Iterator[list[Factor]]:
     """Both numerators for every set of poles, closed under conjugation, that the grounded row
     may have.
     """
@@ -200,7 +202,7 @@ def _splits(degree: int, factor: int, factor_degree: int) -> bool:
     return degree % 2 == 1 or factor % 2 == 0 or factor_degree % 2 == 1
 
 
-def _signed(point: Point, label: str) -> Point:
+def _sign_point(point: Point, label: str) -> Point:
     """The point with random signs."""
     signs = residues(f"signs:{label}", len(point), 3)
     return {

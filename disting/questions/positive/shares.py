@@ -170,19 +170,19 @@ def row_words(chain: Chain, other: Chain) -> tuple[RowWords, ...]:
         return ()
     pairs = list(zip(rows(chain), rows(other), strict=True))
     compared = tuple(_lacking(a, b) for a, b in pairs)
-    is_settled = any(p.lacking for p in compared) or all(_contained(a, b) for a, b in pairs)
+    is_settled = any(p.lacking for p in compared) or all(_contains_rows(a, b) for a, b in pairs)
     return compared if is_settled else ()
 
 
 def _lacking(row: Row, other: Row) -> RowWords:
     ports = (row.a, row.b), (other.a, other.b)
     lacking = (
-        () if _contained(row, other) else tuple(sorted(_words(row).lower - _words(other).upper))
+        () if _contains_rows(row, other) else tuple(sorted(_words(row).lower - _words(other).upper))
     )
     return RowWords(row.name, row.n_masses, *ports, lacking)
 
 
-def _contained(row: Row, other: Row) -> bool:
+def _contains_rows(row: Row, other: Row) -> bool:
     """Return True if every positive row of the one type is equivalent to one of the other; mirrored
     ports count as equal (`words`).
     """
@@ -201,7 +201,7 @@ def by_words(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None:
         return None
     if not any(p.lacking for p in compared):
         return PositiveFinding(Share.ALWAYS, Certainty.THEOREM, evidence=Interlacing(compared))
-    first, empirical = _sampled(chain, other, seed, TRIES)
+    first, empirical = _sample_points(chain, other, seed, TRIES)
     evidence = Interlacing(compared, first.get(Answer.YES, ()), first.get(Answer.NO, ()))
     return PositiveFinding(
         Share.SOMETIMES, Certainty.THEOREM, evidence=evidence, empirical=empirical
@@ -210,7 +210,7 @@ def by_words(chain: Chain, other: Chain, seed: str) -> PositiveFinding | None:
 
 def by_points(chain: Chain, other: Chain, seed: str) -> PositiveFinding:
     """Random points: one with a positive equivalent and one without."""
-    first, empirical = _sampled(chain, other, seed, DAMPED_TRIES if chain.damped else TRIES)
+    first, empirical = _sample_points(chain, other, seed, DAMPED_TRIES if chain.damped else TRIES)
     if Answer.YES in first and Answer.NO in first:
         evidence: PositiveEvidence = Points(first[Answer.YES], first[Answer.NO])
         return PositiveFinding(
@@ -239,7 +239,7 @@ def by_empty_fibre(chain: Chain, other: Chain, seed: str) -> PositiveFinding | N
     return PositiveFinding(Share.NEVER, Certainty.BOUNDED, safety_of_point(other), evidence)
 
 
-def _sampled(
+def _sample_points(
     chain: Chain, other: Chain, seed: str, tries: int
 ) -> tuple[dict[Answer, tuple[tuple[str, str], ...]], Empirical]:
     """The first point of each answer, and how many had which."""

@@ -106,7 +106,7 @@ def word(t: Target) -> Word | None:
         return ()
     for bits in PRECISIONS:
         with ctx.workprec(bits):
-            counts = _counted(t)
+            counts = _count_word(t)
         if counts is not None:
             return counts
     return None
@@ -164,7 +164,7 @@ def _zeros(s: _State, zeros: int) -> Iterator[_State]:
         yield _State(0, 0, s.between, s.zeros_a - 1, s.zeros_b - 1)
 
 
-def _counted(t: Target) -> Word | None:
+def _count_word(t: Target) -> Word | None:
     """The word, if the balls are apart at this precision."""
     points = [
         (z, n, is_pole)
@@ -175,7 +175,7 @@ def _counted(t: Target) -> Word | None:
         return ()
     if any(n > 1 or not z.imag.is_zero() for z, n, _ in points):
         return None
-    ordered = sorted(((z.real, is_pole) for z, _, is_pole in points), key=cmp_to_key(_compared))
+    ordered = sorted(((z.real, is_pole) for z, _, is_pole in points), key=cmp_to_key(_compare))
     if not all(bool(right[0] > left[0]) for right, left in pairwise(ordered)):
         return None
     poles = [i for i, (_, is_pole) in enumerate(ordered) if is_pole]
@@ -183,7 +183,7 @@ def _counted(t: Target) -> Word | None:
     return tuple(right - left - 1 for left, right in pairwise(poles)) if inside else ()
 
 
-def _compared(point: tuple[arb, bool], other: tuple[arb, bool]) -> int:
+def _compare(point: tuple[arb, bool], other: tuple[arb, bool]) -> int:
     """From right to left; balls that overlap compare as equal, neighbours in the list will show
     it.
     """

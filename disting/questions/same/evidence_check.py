@@ -46,22 +46,22 @@ class Witness:
         """Return True if the evidence holds for the two chains and decides them."""
         a, b = left.structure, right.structure
         pair = SampledPair(
-            left=self._seen(a),
-            right=self._seen(b),
+            left=self._sample_model(a),
+            right=self._sample_model(b),
             renames=partial(is_renaming, a, b),
             found_again=partial(_found_again, left=left, right=right),
             numberings=lambda left_is_part: embeddings(*((a, b) if left_is_part else (b, a))),
-            united=lambda: self._united(a, b),
+            united=lambda: self._unite(a, b),
             by_symmetry=partial(between, left, right),
         )
         return evidence.holds(pair, representation)
 
-    def _united(self, a: Structure, b: Structure) -> ModelSamples | None:
+    def _unite(self, a: Structure, b: Structure) -> ModelSamples | None:
         """The model with the elements of both, if force and sensor of both are at one place."""
         same_ports = (a.ports, a.sensor_order) == (b.ports, b.sensor_order)
-        return self._seen(a.united(b)) if same_ports else None
+        return self._sample_model(a.united(b)) if same_ports else None
 
-    def _seen(self, structure: Structure) -> ModelSamples:
+    def _sample_model(self, structure: Structure) -> ModelSamples:
         if structure not in self.memo:
             self.memo[structure] = samples_of(ChainModel(structure), self.seed)
         return self.memo[structure]

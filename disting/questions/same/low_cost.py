@@ -43,7 +43,7 @@ def quick_finding(a: Chain, b: Chain, settings: Settings) -> Finding:
 def by_synthesis_in_time(a: Chain, b: Chain, settings: Settings) -> Finding:
     """The synthesis, given up after SECONDS."""
     try:
-        with _limited(SECONDS):
+        with _limit_time(SECONDS):
             by_fibre = by_synthesis(a, b, settings)
     except _OutOfTime:
         return Finding(
@@ -81,7 +81,7 @@ INVERSELY = Question("inverse profiles", quick_profile, profile_to_json, profile
 
 
 @contextmanager
-def _limited(seconds: float) -> Iterator[None]:
+def _limit_time(seconds: float) -> Iterator[None]:
     """Raise _OutOfTime in the block after so many seconds of this process, whatever else the
     machine does.
 

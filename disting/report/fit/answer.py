@@ -211,7 +211,7 @@ class Answer:
 
 def answer(selection: Selection, results: Sequence[ParameterRow]) -> Answer:
     """The answer of a selection; `results`: the results of the described model on the machine."""
-    numbers = (_misfit(selection), _left(selection), _third(selection, results))
+    numbers = (_misfit(selection), _count_left(selection), _third(selection, results))
     return Answer(_title(selection), numbers, _rule(selection))
 
 
@@ -233,15 +233,15 @@ def _title(selection: Selection) -> str:
 
 
 def _misfit(selection: Selection) -> KeyFigure:
-    said = selection.explanation
+    found = selection.explanation
     meaning = (
-        f"chi2 per line: 1 is noise alone, at most {readable(noise_limit(said.scatter), 2)}; above"
-        f" {readable(largest_cost(said.scatter), 2)} a structure does not explain the data"
+        f"chi2 per line: 1 is noise alone, at most {readable(noise_limit(found.scatter), 2)}; above"
+        f" {readable(largest_cost(found.scatter), 2)} a structure does not explain the data"
     )
-    return KeyFigure("misfit", readable(said.chi2), meaning)
+    return KeyFigure("misfit", readable(found.chi2), meaning)
 
 
-def _left(selection: Selection) -> KeyFigure:
+def _count_left(selection: Selection) -> KeyFigure:
     count, of, more = (
         len(each) for each in (selection.members, selection.candidates, selection.containing)
     )

@@ -272,9 +272,9 @@ def _marks(top: "Axes", below: "Axes", line: Line, the_marks: Sequence[Mark], wi
     for kind, marker in MARKERS.items():
         at = [m.frequency for m in the_marks if m.kind == kind]
         heights = np.interp(np.array(at), line.omega / (2 * pi), np.abs(line.G))
-        said = f"{kind}, ζ: damping ratio" if at else ""
+        text = f"{kind}, ζ: damping ratio" if at else ""
         top.plot(
-            at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=said
+            at, heights, marker, ms=7, mfc=Tone.PAPER, mec=Tone.INK, mew=1.2, zorder=4, label=text
         )
     for mark, place, label in zip(the_marks, places, labels, strict=True):
         for panel in (top, below):

@@ -31,8 +31,8 @@ def hits(candidate: Candidate) -> int:
 def hits_in_words(candidate: Candidate) -> str:
     """Number of starts that reached the best cost, in words."""
     estimate = candidate.estimate
-    said = f"{hits(candidate)} of {len(estimate.costs)} starts ({percent(estimate.hit_rate)})"
-    return f"{said} within {percent(REACHED)} of the best cost"
+    words = f"{hits(candidate)} of {len(estimate.costs)} starts ({percent(estimate.hit_rate)})"
+    return f"{words} within {percent(REACHED)} of the best cost"
 
 
 def waterfall(candidate: Candidate) -> FigureFiles:

@@ -60,17 +60,17 @@ def _of_each(cost: AnyCost) -> list[str]:
 def suspicious_data(cost: AnyCost) -> Iterator[str]:
     """Suspicious features of the data."""
     for part, of in zip(cost.parts, _of_each(cost), strict=True):
-        yield from (f"{of[4:]}: {said}" if of else said for said in part.measured.suspicions)
+        yield from (f"{of[4:]}: {doubt}" if of else doubt for doubt in part.measured.suspicions)
 
 
 def closed_loops(selection: Selection) -> tuple[str, ...]:
     """One sentence on closed loops that the records show; empty where they show none."""
     cost = selection.task.cost
     each = zip(cost.parts, _of_each(cost), strict=True)
-    told = [(part.measured, of) for part, of in each if part.measured.loop is not None]
+    loops = [(part.measured, of) for part, of in each if part.measured.loop is not None]
     # what is biased matters most
-    for measured, of in sorted(told, key=lambda pair: not pair[0].is_biased_by_loop)[:1]:
-        more = f" (so do {len(told) - 1} more responses)" if len(told) > 1 else ""
+    for measured, of in sorted(loops, key=lambda pair: not pair[0].is_biased_by_loop)[:1]:
+        more = f" (so do {len(loops) - 1} more responses)" if len(loops) > 1 else ""
         return (f"{of[4:]}: {measured.loop_sentence}{more}" if of else measured.loop_sentence,)
     return ()
 
@@ -89,8 +89,8 @@ def bad(selection: Selection) -> tuple[str, ...]:
     """Single lines that make most of a misfit."""
     if selection.explanation.explains and not selection.better:
         return ()
-    said = bad_lines(selection.candidates, selection.described, selection.task)
-    return () if said is None else (said,)
+    lines = bad_lines(selection.candidates, selection.described, selection.task)
+    return () if lines is None else (lines,)
 
 
 def doubtful_deviations(selection: Selection) -> Iterator[str]:
@@ -146,8 +146,8 @@ def amplitude(selection: Selection) -> tuple[str, ...]:
     own, changes = list(_nonlinearity(selection)), list(_machine_change(selection))
     if len(own) == len(changes) == 1:
         of, sentence = own[0]
-        seen, cause = changes[0]
-        both = with_change(sentence, f"{seen}{': the machine is not linear' * (cause == LINEAR)}")
+        first, cause = changes[0]
+        both = with_change(sentence, f"{first}{': the machine is not linear' * (cause == LINEAR)}")
         return (f"{of}{both}",)
     return (*(f"{of}{sentence}" for of, sentence in own), *(held([s], c) for s, c in changes))
 
@@ -189,12 +189,12 @@ def _nonlinearity(selection: Selection) -> Iterator[tuple[str, str]]:
         own = part.measured
         fitted = response_of(selection.described, selection.task, own.omega, k)
         sentence = describe_nonlinearity(own)
-        seen = scatter(own, [fitted])
+        own_scatter = scatter(own, [fitted])
         # else the misfit makes the jumps
         explains = selection.explanation.size_level is Level.EXPLAINS
-        if not sentence and explains and seen.source == JUMPS and own.noise is not None:
+        if not sentence and explains and own_scatter.source == JUMPS and own.noise is not None:
             noise = float(np.median(own.noise / np.abs(own.G)))
-            sentence = describe_jumps(float(np.sqrt(2)) * seen.typical, noise)
+            sentence = describe_jumps(float(np.sqrt(2)) * own_scatter.typical, noise)
         if sentence:
             yield f"{of[4:]}: " if of else "", sentence
 
@@ -255,12 +255,12 @@ def weak(selection: Selection) -> Iterator[str]:
     loose = {
         n: e for n, e in selection.selected.practical.relative_errors.items() if not e <= KNOWN
     }
-    said = [
+    names = [
         f"{n} {limits_in_words(*wide[n])}" if n in wide and not e <= FROM_ZERO else _loose(n, e)
         for n, e in loose.items()
     ]
-    if said:
-        yield f"known badly: {', '.join(said)}"
+    if names:
+        yield f"known badly: {', '.join(names)}"
 
 
 def _loose(name: str, error: float) -> str:

@@ -59,19 +59,21 @@ def first_sentence(lead: ChainAdvice) -> str:
     others = _others(lead)
     larger = [k for k in range(1, len(lead.left)) if k not in others]
     best = _best(lead, lead.seen, others)
-    said = (
+    sentence = (
         f"if the machine is {selected.name}, no experiment on the menu excludes another structure"
         f" with power {percent(POWER)}"
     )
     if best is not None:
-        said = (
+        sentence = (
             f"measure next: {best.item.text} (cost {lead.costs.cost(best.item.kind):g}); if the"
             f" machine is {selected.name}, it shows a difference from {_of(lead, best, others)}"
         )
         left = [f"{lead.left[k].name} (power {chance(power)})" for k, power in best.left]
-        said += f"; not {enumeration(left)}" if left else ""
+        sentence += f"; not {enumeration(left)}" if left else ""
     contain = enumeration([lead.left[k].name for k in larger])
-    return said + (f"; no data exclude {contain}, which {_contain(larger)} it" if larger else "")
+    return sentence + (
+        f"; no data exclude {contain}, which {_contain(larger)} it" if larger else ""
+    )
 
 
 def _alone(named: FitRecord, source: str) -> Iterator[str]:

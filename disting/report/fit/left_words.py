@@ -92,7 +92,7 @@ def measured_in_words(lead: ChainAdvice) -> Iterator[str]:
     """Sentences on the basis of the numbers, one for each pair, then the menu of the selected
     structure in numbers.
     """
-    if (seen := lead.seen) is None:
+    if (predicted := lead.seen) is None:
         yield f"{lead.source} does not name the lines of its data: fit again to get powers"
         yield from (sentence(lead, a, b) for a, b in lead.pairs())
         return
@@ -100,16 +100,18 @@ def measured_in_words(lead: ChainAdvice) -> Iterator[str]:
         f"differences and powers are {BEFORE}: fitted again it comes closer; one that contains the"
         " true structure fits it exactly"
     )
-    yield bench_in_words(seen)
+    yield bench_in_words(predicted)
     yield f"how much more of the same measurement tells them apart: disting plan {lead.source}"
     yield from ("", *(sentence(lead, a, b) for a, b in lead.pairs()))
-    items = [(item, _nearest(lead, seen, item)) for item in cheapest_first(lead, seen, 0)]
+    items = [(item, _nearest(lead, predicted, item)) for item in cheapest_first(lead, predicted, 0)]
     yield ""
     yield f"if the machine is {lead.left[0].name}: each experiment, and the rival it shows least:"
     head = "".join(f"{title:>10}" for title in ("largest", "at [Hz]", "lambda", "power"))
     width = max(len("rival"), *(len(survivor.name) for survivor in lead.left))
     yield f"  {'':33}{'rival':{width}}{head}"
-    yield from (f"  {item.text:33}{_row(lead, seen, width, *row)}" for item, row in items if row)
+    yield from (
+        f"  {item.text:33}{_row(lead, predicted, width, *row)}" for item, row in items if row
+    )
     yield (
         "largest: the largest difference at a line, in units of its scatter; lambda and power: of"
         f" the further response alone, level {percent(LEVEL)}"
@@ -122,13 +124,13 @@ def sentence(lead: ChainAdvice, a: int, b: int) -> str:
     """
     survivor, other = lead.left[a], lead.left[b]
     standing = lead.stood.reason(a, b)
-    said = f"{other.name}: {SAYS[standing].format(survivor.name)}"
+    text = f"{other.name}: {SAYS[standing].format(survivor.name)}"
     if standing is Reason.NOISE:
         if contains(other.chain, survivor.chain):
-            said += f", which it contains: only {survivor.name} can be excluded"
-        said += f" (disting plan {lead.source})"
-    shown = _shown(lead, lead.seen, a, b) if lead.seen else ""
-    return f"{said}; {shown}" if shown else said
+            text += f", which it contains: only {survivor.name} can be excluded"
+        text += f" (disting plan {lead.source})"
+    shown = _show_cheapest(lead, lead.seen, a, b) if lead.seen else ""
+    return f"{text}; {shown}" if shown else text
 
 
 def bench_in_words(seen: Predictions) -> str:
@@ -174,7 +176,7 @@ def left_to_dict(lead: ChainAdvice) -> dict[str, Any]:
         "groups": [to_dict(group) for group in lead.groups],
         "pairs": [_pair(lead, a, b) for a, b in combinations(range(len(lead.left)), 2)],
         "sentences": [sentence(lead, a, b) for a, b in lead.pairs()],
-        "measured": _measured(lead, lead.seen) if lead.seen else None,
+        "measured": _measure_items(lead, lead.seen) if lead.seen else None,
     }
 
 
@@ -183,7 +185,7 @@ def _pair(lead: ChainAdvice, a: int, b: int) -> dict[str, str]:
     return names | {"standing": lead.stood.reason(a, b).value}
 
 
-def _measured(lead: ChainAdvice, seen: Predictions) -> dict[str, Any]:
+def _measure_items(lead: ChainAdvice, seen: Predictions) -> dict[str, Any]:
     hertz = seen.bench.hertz.tolist()
     return {
         "what": BEFORE,
@@ -258,7 +260,7 @@ def _row(lead: ChainAdvice, seen: Predictions, width: int, other: int, step: Ste
     return f"{name:{width}}{''.join(f'{readable(size):>10}' for size in sizes)}{reached:>10}"
 
 
-def _shown(lead: ChainAdvice, seen: Predictions, a: int, b: int) -> str:
+def _show_cheapest(lead: ChainAdvice, seen: Predictions, a: int, b: int) -> str:
     """The cheapest item that is enough at the fitted values, else the one that shows most."""
     best: tuple[float, str] | None = None
     unsure = False
@@ -270,12 +272,12 @@ def _shown(lead: ChainAdvice, seen: Predictions, a: int, b: int) -> str:
             unsure = True
             continue
         reached = seen.power(a, b, nearest[0])
-        said = f"{item.text} (cost {lead.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
+        text = f"{item.text} (cost {lead.costs.cost(item.kind):g}) {_size(nearest[0], reached)}"
         if reached >= POWER:
             free = lead.left[b].free > 0
-            return said + ", for one of its values, the others were not looked at" * free
+            return text + ", for one of its values, the others were not looked at" * free
         if best is None or reached > best[0]:
-            best = reached, said
+            best = reached, text
     if best is None:
         return "no experiment on the menu surely tells them apart" if unsure else ""
     return f"no experiment on the menu has power {percent(POWER)}; the best: {best[1]}"

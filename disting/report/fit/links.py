@@ -111,11 +111,11 @@ def new_names(selection: Selection) -> str:
     form = listed_form(selection.described.chain)
     other = ", ".join(f"{old} is {new} there" for old, new in form.renaming.items() if old != new)
     exchanged = "" if other else "force and sensor are exchanged there"
-    said = (
+    names = (
         f"{reference(selection.described.chain)} is the structure of the catalogue that behaves the"
         " same"
     )
-    return "" if form.chain == selection.described.chain else f"{said}: {other or exchanged}"
+    return "" if form.chain == selection.described.chain else f"{names}: {other or exchanged}"
 
 
 def commands(selection: Selection) -> tuple[str, ...]:

@@ -64,7 +64,7 @@ def better_outside(selection: Selection) -> tuple[Outside, ...]:
 def better_in_words(selection: Selection) -> str:
     """Those machines, each with its misfit; "" where none is found."""
     return " or ".join(
-        f"{_named(x.kind, x.text)} (chi2 {x.chi2:.3g})" for x in better_outside(selection)
+        f"{_name_kind(x.kind, x.text)} (chi2 {x.chi2:.3g})" for x in better_outside(selection)
     )
 
 
@@ -146,7 +146,7 @@ def exchange_clause(selection: Selection) -> Iterator[str]:
 def look_alike_sentences(selection: Selection) -> Iterator[str]:
     """One sentence for each look-alike; why none is named; the way to fit an elastic base."""
     yield from (
-        f"outside the candidates: {_named(x.kind, x.text)} explains this data better"
+        f"outside the candidates: {_name_kind(x.kind, x.text)} explains this data better"
         f" (chi2 {x.chi2:.3g}){_values(x.kind, x.values)}"
         for x in better_outside(selection)
     )
@@ -212,7 +212,7 @@ def _to_dict(x: LookAlike) -> dict[str, Any]:
 
 
 def _sentence(x: LookAlike) -> str:
-    what = _named(x.kind, x.text)
+    what = _name_kind(x.kind, x.text)
     if x.kind is not LookAlikeKind.BRANCH:
         what += f" ({RELATIVE})"
     reduced = "" if x.kind is LookAlikeKind.BRANCH else f"; {REDUCED}"
@@ -221,7 +221,7 @@ def _sentence(x: LookAlike) -> str:
     return f"{what} has the same responses{near}{reduced}{_values(x.kind, x.values)}"
 
 
-def _named(kind: LookAlikeKind, text: str) -> str:
+def _name_kind(kind: LookAlikeKind, text: str) -> str:
     """Such as: a branch 1=2, 1=3; F1; S1."""
     return f"a branch {text}" if kind is LookAlikeKind.BRANCH else text
 

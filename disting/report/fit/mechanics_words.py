@@ -19,7 +19,7 @@ this data'
     parts = [sizes_in_words(folded.sizes)]
     parts += [_ports(folded.ports)] if folded.ports else []
     parts += _dampers(folded, folded.shared, with_and)
-    parts += [with_and(adds)] if (adds := _shared(folded.actuators)) else []
+    parts += [with_and(adds)] if (adds := _shared_elements(folded.actuators)) else []
     undecided = ", ".join(undecided_in_words(folded))
     return ", ".join(parts) + (f"; {undecided}: {NOT_DECIDED}" if undecided else "")
 
@@ -42,7 +42,7 @@ def undecided_in_words(folded: Folded) -> Iterator[str]:
         joined = " or " if len(folded.undecided) == 2 else ", "
         yield joined.join(_dampers(folded, folded.undecided, with_or))
     if len(folded.actuators) > 1:
-        known = _shared(folded.actuators)
+        known = _shared_elements(folded.actuators)
         yield actuators_in_words(
             [tuple(part for part in adds if part not in known) for adds in folded.actuators]
         )
@@ -109,7 +109,7 @@ def with_or(words: Sequence[str]) -> str:
     return " or ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
-def _shared(actuators: Sequence[Parts]) -> list[str]:
+def _shared_elements(actuators: Sequence[Parts]) -> list[str]:
     """Elements that every actuator adds."""
     return [part for part in ACTUATOR.values() if all(part in adds for adds in actuators)]
 

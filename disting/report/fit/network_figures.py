@@ -64,7 +64,7 @@ def network_figures(selection: NetworkSelection) -> list[FigureFiles]:
     """Return Nyquist (of impedances), Bode diagram and residuals of each response."""
     figures = list[FigureFiles]()
     for at in range(len(selection.measured)):
-        drawn = _drawn(selection, at)
+        drawn = _draw_response(selection, at)
         end = f"-{at + 1}" if at else ""
         if drawn.is_circuit:
             figures.append(nyquist(drawn, f"nyquist{end}"))
@@ -72,7 +72,7 @@ def network_figures(selection: NetworkSelection) -> list[FigureFiles]:
     return figures
 
 
-def _drawn(selection: NetworkSelection, at: int) -> Drawn:
+def _draw_response(selection: NetworkSelection, at: int) -> Drawn:
     described, measured = selection.fits[0], selection.measured[at]
     others = [f for f in selection.left if f is not described][: len(OTHERS)]
     which = f", response {at + 1}" if len(selection.measured) > 1 else ""

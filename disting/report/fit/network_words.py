@@ -70,10 +70,10 @@ def interval_words(interval: Interval) -> str:
 def value_lines(fit: FittedNetwork) -> Iterator[str]:
     """Yield the values of a fitted network and of those that cannot be distinguished from it."""
     yield f"{fit.network.name}, values and 95 % intervals:"
-    yield from _aligned(value_rows(fit.network, fit.values, fit.intervals))
+    yield from _align_rows(value_rows(fit.network, fit.values, fit.intervals))
     for twin in fit.twins:
         yield f"{twin_words(twin)}:"
-        yield from _aligned(value_rows(twin.network, twin.values, twin.intervals))
+        yield from _align_rows(value_rows(twin.network, twin.values, twin.intervals))
 
 
 def twin_words(twin: NetworkTwin) -> str:
@@ -84,7 +84,7 @@ def twin_words(twin: NetworkTwin) -> str:
     return f"{twin.network.name}, the same responses{one_of_many}"
 
 
-def _aligned(rows: list[ValueRow]) -> Iterator[str]:
+def _align_rows(rows: list[ValueRow]) -> Iterator[str]:
     width = max((len(row.unit) for row in rows), default=0)
     for row in rows:
         yield f"  {row.name:6} {row.value:<12} {row.unit:{width}}  {row.interval}".rstrip()

@@ -54,7 +54,7 @@ def write_plans(
     same plans give the same bytes.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    shown = [_shown(plan, best, folder, k) for k, (plan, best) in enumerate(plans, 1)]
+    shown = [_show_plan(plan, best, folder, k) for k, (plan, best) in enumerate(plans, 1)]
     page = _page(named, shown, reverse, source, file, folder)
     files: list[tuple[str, bytes | list[str]]] = [("plan.html", [page])]
     files.append(("plan.json", [json_text(plain, indent=1), "\n"]))
@@ -72,7 +72,7 @@ def _spectrum(k: int) -> str:
     return f"spectrum-{k}.csv"
 
 
-def _shown(plan: Plan, best: Design | None, folder: Path, k: int) -> ShownPlan:
+def _show_plan(plan: Plan, best: Design | None, folder: Path, k: int) -> ShownPlan:
     is_open = plan.noncentrality > 0
     steps = list[Step]()
     if best is not None:

@@ -47,12 +47,12 @@ def plan_in_words(plan: Plan, best: Design | None, source: str) -> Iterator[str]
     yield ""
     model, name = plan.names
     width = max(len(model), len(name))
-    yield f"  {model:{width}}  {_drawn(plan.model)}true: {_values(plan.values)}"
+    yield f"  {model:{width}}  {_draw_structure(plan.model)}true: {_values(plan.values)}"
     rival = plan.rival
     if rival is None:
-        yield f"  {name:{width}}  {_drawn(plan.other)}".rstrip()
+        yield f"  {name:{width}}  {_draw_structure(plan.other)}".rstrip()
         return
-    yield f"  {name:{width}}  {_drawn(plan.other)}best fit: {_values(rival.parameters)}"
+    yield f"  {name:{width}}  {_draw_structure(plan.other)}best fit: {_values(rival.parameters)}"
     yield ""
     yield from _figures(plan, rival, source)
     if best is not None:
@@ -128,7 +128,7 @@ def _rows(plans: Sequence[Plan], *, true: bool = False) -> Iterator[str]:
         yield f"{name:{width}}  {row}"
 
 
-def _drawn(structure: AnyStructure) -> str:
+def _draw_structure(structure: AnyStructure) -> str:
     """A chain as a drawing; a network is drawn by its name."""
     return f"{text_drawing(structure)}  " if isinstance(structure, Chain) else ""
 
@@ -144,14 +144,14 @@ def answer_in_words(plan: Plan) -> str:
         )
     if plan.answer is Answer.SAME:
         return _same(plan, plan.rival)
-    said = (
+    text = (
         f"if the {_words(plan.model)[0]} is {model}, the data exclude {name} with a probability of"
         f" {chance(plan.power)} (level {percent(LEVEL)})"
     )
     more = (
-        f"enough: {said}"
+        f"enough: {text}"
         if plan.answer is Answer.ENOUGH
-        else f"not enough: {said}; for {percent(POWER)} measure {readable(plan.factor)} times as"
+        else f"not enough: {text}; for {percent(POWER)} measure {readable(plan.factor)} times as"
         " many periods"
     )
     return more if is_trusted(plan) else f"{more}. {_doubt(plan.rival)}"
@@ -208,8 +208,8 @@ def _limits(rival: Rival) -> str:
         if limit is not Limit.ANY
     ]
     idle = [name for name, limit in rival.limits.items() if limit is Limit.ANY]
-    said = [f"in the limit {', '.join(ends)}"] if ends else []
-    return " and ".join([*said, *([f"with {', '.join(idle)} without effect"] if idle else [])])
+    words = [f"in the limit {', '.join(ends)}"] if ends else []
+    return " and ".join([*words, *([f"with {', '.join(idle)} without effect"] if idle else [])])
 
 
 def _short(plan: Plan) -> str:
@@ -245,7 +245,7 @@ def _figures(plan: Plan, rival: Rival, source: str) -> Iterator[str]:
     )
     yield (
         f"test            {plan.surplus} degree{plural} of freedom{larger}, level"
-        f" {percent(LEVEL)}{_estimated(plan)}"
+        f" {percent(LEVEL)}{_estimate_source(plan)}"
     )
     yield (
         f"noncentrality   {readable(plan.noncentrality)} squared units of noise between both"
@@ -260,7 +260,7 @@ def _figures(plan: Plan, rival: Rival, source: str) -> Iterator[str]:
     yield f"  {lines} lines in the same range"
 
 
-def _estimated(plan: Plan) -> str:
+def _estimate_source(plan: Plan) -> str:
     """From what a fit finds the scatter."""
     if plan.repeats is None:
         return ""

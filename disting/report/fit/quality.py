@@ -19,8 +19,8 @@ def quality_line(selection: Selection) -> str:
     """
     scatter = selection.explanation.scatter
     noise = f"noise {percent(scatter.typical)} (from {scatter.source})"
-    said = [*([] if distorts(selection) else [noise]), *quality_remarks(selection)]
-    return f"{_lines(selection)}, {'; '.join(said)}"
+    remarks = [*([] if distorts(selection) else [noise]), *quality_remarks(selection)]
+    return f"{_lines(selection)}, {'; '.join(remarks)}"
 
 
 def quality_remarks(selection: Selection) -> Iterator[str]:

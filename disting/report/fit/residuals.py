@@ -67,7 +67,7 @@ def misfits(
     """Residuals of the shown candidate; those that it is judged by against the scatter that it
     is judged by; `at` = which one of several responses.
     """
-    candidate, task, judged = selection.described, selection.task, _judged(selection, at)
+    candidate, task, judged = selection.described, selection.task, _judging_scatter(selection, at)
     misses = []
     for s in series_of(candidate, task, train, test, at):
         ratio = s.measured.G / response_of(candidate, task, s.measured.omega, at)
@@ -77,7 +77,7 @@ def misfits(
     return misses
 
 
-def _judged(selection: Selection, at: int) -> Scatter | None:
+def _judging_scatter(selection: Selection, at: int) -> Scatter | None:
     """The scatter of the lines of a response that candidates are judged by; None where it has no
     data of its own for that.
     """
@@ -155,14 +155,14 @@ def bands_in_words(
     own = series_of(candidate, task, train, test, at)
     bars = [_bars(s) for s in own if s.has_bars]
     texts = {s.label: s.scatter.source for s in own if s.has_bars}
-    said = [
+    sentences = [
         f"Scatter of the {m.series.label}: {_interval(m.series.scatter.typical)} (95 %), from"
         f" {m.series.scatter.source}."
         for m in misses
         if texts.get(m.series.label) != m.series.scatter.source
     ]
     under = [beneath_in_words(s) for s in own if s.measured.distortion is not None]
-    return [*bars, _model_band(sure, omega), *under[:1]], [*said, _outside(misses)]
+    return [*bars, _model_band(sure, omega), *under[:1]], [*sentences, _outside(misses)]
 
 
 def _bars(s: Series) -> str:
@@ -261,14 +261,14 @@ def _missed_ranges(panels: Sequence["Axes"], misses: Sequence[Miss]) -> None:
     """
     for panel in panels:
         for i, miss in enumerate(misses):
-            said = "missed by more than the scatter" if i == 0 and panel is panels[0] else ""
+            label = "missed by more than the scatter" if i == 0 and panel is panels[0] else ""
             panel.axvspan(
                 miss.low / EDGE,
                 miss.high * EDGE,
                 color=Tone.SECOND,
                 alpha=0.13,
                 lw=0,
-                label=said,
+                label=label,
                 zorder=0,
             )
 

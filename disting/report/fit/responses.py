@@ -87,7 +87,7 @@ def with_all_sensors(chain: Chain, selection: Selection) -> Scene:
     signs = _signs(chain, selection)
     ports = {_port(chain, setup) for setup in setups}
     read = {sign: place for sign, place in signs.items() if place in ports}
-    also = "".join(f"; {sign}: sensor {_named(read[sign])}" for sign in read if sign != "y")
+    also = "".join(f"; {sign}: sensor {_name_port(read[sign])}" for sign in read if sign != "y")
     return replace(state(chain, read), title=f"{draw(chain).title.removesuffix('.')}{also}.")
 
 
@@ -98,8 +98,8 @@ def in_response(chain: Chain, selection: Selection, response: Response) -> Scene
     read = {sign: at for sign, at in _signs(chain, selection).items() if at == place}
     measured = setup.experiment(n)
     scene = state(chain, read, measured.changes, measured.force)
-    said = f"{draw(chain).title.removesuffix('.')}; measured here: {response.setup.text}."
-    return replace(scene, title=said)
+    title = f"{draw(chain).title.removesuffix('.')}; measured here: {response.setup.text}."
+    return replace(scene, title=title)
 
 
 def drawing(scene: Scene) -> Markup:
@@ -128,7 +128,7 @@ def _port(chain: Chain, setup: Setup) -> Port:
     return plus, minus
 
 
-def _named(place: Port) -> str:
+def _name_port(place: Port) -> str:
     return f"at mass {place[0]}" + (f" against mass {place[1]}" if place[1] else "")
 
 

@@ -34,13 +34,14 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
         "selected": candidate_to_dict(selection.selected) if selection.selected else None,
         "candidates": [candidate_to_dict(c) for c in selection.candidates],
         "alternatives": [
-            {**_named(a.chain), "relation": a.relation.value, "reason": a.sentence}
+            {**_chain_to_dict(a.chain), "relation": a.relation.value, "reason": a.sentence}
             for a in selection.alternatives
         ],
         "look_alikes": look_alikes_to_dict(selection),
         "outside": [_outside_to_dict(machine) for machine in selection.outside],
         "not_fitted": [
-            {**_named(c), "same_as": _named(other)} for c, other in selection.same_as.items()
+            {**_chain_to_dict(c), "same_as": _chain_to_dict(other)}
+            for c, other in selection.same_as.items()
         ],
         "status": _status(selection),
         "answer": list(first_lines(selection)),
@@ -60,7 +61,7 @@ def selection_to_dict(selection: Selection) -> dict[str, Any]:
         "not_excluded": [member_to_dict(m) for m in (*selection.members, *selection.containing)],
         "relied_on": [_statement_to_dict(s) for s in selection.relied_on],
         "suspicions": list(suspicions(selection)),
-        "data": [_data(response) for response in _measured(selection)],
+        "data": [_data(response) for response in _all_responses(selection)],
         "rule": selection.rule.value,
         "validation": selection.validation,
         "sign": selection.task.sign,
@@ -83,10 +84,10 @@ def _outside_to_dict(machine: Outside) -> dict[str, Any]:
 def _status(selection: Selection) -> str:
     if selection.question:
         return "quantity not settled"
-    said = selection.explanation
-    if said.too_few:
+    explanation = selection.explanation
+    if explanation.too_few:
         return "too few lines"
-    return STATUS[said.level]
+    return STATUS[explanation.level]
 
 
 def _mechanics_to_dict(folded: Folded) -> dict[str, Any]:
@@ -138,7 +139,7 @@ def _joint_to_dict(selection: Selection) -> dict[str, Any]:
     each = explanations(
         judging, described.residual, described.missed, selection.explanation.scatter
     )
-    said = dict(zip(judging.setups, each, strict=True))
+    by_setup = dict(zip(judging.setups, each, strict=True))
     cost, p = selection.task.cost, described.estimate.parameters
     names = selection.task.names(described.chain)
     response = selection.task.plant(described.chain).response(np.array([p[n] for n in names]))
@@ -156,7 +157,7 @@ def _joint_to_dict(selection: Selection) -> dict[str, Any]:
                 "j_train": float(residual @ residual),
                 "fit_percent": _finite(fit_percent(described, selection.task, part.measured, at)),
             }
-            | (_explained(said[setup]) if setup in said else {})
+            | (_explanation_to_dict(by_setup[setup]) if setup in by_setup else {})
             for at, (part, setup, residual) in enumerate(rows)
         ],
         "nothing_learned": list(selection.silent),
@@ -166,7 +167,7 @@ def _joint_to_dict(selection: Selection) -> dict[str, Any]:
     }
 
 
-def _explained(said: Explanation) -> dict[str, Any]:
+def _explanation_to_dict(said: Explanation) -> dict[str, Any]:
     """Plain data of the explanation of one response's judged data."""
     return {
         "chi2_per_line": said.chi2,
@@ -175,7 +176,7 @@ def _explained(said: Explanation) -> dict[str, Any]:
     }
 
 
-def _measured(selection: Selection) -> list[FrequencyResponse]:
+def _all_responses(selection: Selection) -> list[FrequencyResponse]:
     """All responses: those that are fitted, then those that they are tested on."""
     train = [part.measured for part in selection.task.cost.parts]
     tests = [part.measured for part in selection.judging.parts]
@@ -222,7 +223,7 @@ def member_to_dict(member: Member) -> dict[str, Any]:
     """
     return {
         "name": member.name,
-        **_named(member.candidate.chain),
+        **_chain_to_dict(member.candidate.chain),
         "parameters": member.candidate.estimate.parameters,
         "intervals": {n: [_finite(end) for end in both] for n, both in member.intervals.items()},
         "contains": reference(member.contains) if member.contains else None,
@@ -259,7 +260,7 @@ def candidate_to_dict(c: Candidate) -> dict[str, Any]:
     """
     return {
         "name": reference(c.chain),
-        **_named(c.chain),
+        **_chain_to_dict(c.chain),
         "n_parameters": c.n_parameters,
         "parameters": c.estimate.parameters,
         "standard_errors": {name: _finite(value) for name, value in c.standard_errors.items()},
@@ -284,7 +285,7 @@ def candidate_to_dict(c: Candidate) -> dict[str, Any]:
     }
 
 
-def _named(chain: Chain) -> dict[str, Any]:
+def _chain_to_dict(chain: Chain) -> dict[str, Any]:
     """A chain in the words of the fit: lag, delay, ground dampers; gap, force and sensor as
     indices.
 

@@ -279,12 +279,12 @@ def _choice(selection: Selection) -> str:
 
 def _scatter(selection: Selection) -> str:
     """Scatter used in the absolute check."""
-    said = selection.explanation
+    found = selection.explanation
     return (
-        f"A line scatters by {percent(said.scatter.typical)}, known from {said.scatter.source}."
-        f" Measured by it, chi2 per line is {readable(said.chi2)}: 1 is noise alone, which stays"
-        f" below {readable(noise_limit(said.scatter), 2)}; above"
-        f" {readable(largest_cost(said.scatter), 2)} the data are not explained."
+        f"A line scatters by {percent(found.scatter.typical)}, known from {found.scatter.source}."
+        f" Measured by it, chi2 per line is {readable(found.chi2)}: 1 is noise alone, which stays"
+        f" below {readable(noise_limit(found.scatter), 2)}; above"
+        f" {readable(largest_cost(found.scatter), 2)} the data are not explained."
     )
 
 
@@ -292,15 +292,15 @@ def _akaike(selection: Selection) -> str:
     if selection.selected is None:
         return ""
     heaviest = max(selection.candidates, key=lambda c: c.akaike_weight)
-    said = (
+    note = (
         "They compare the admissible candidates on the training data alone, as if the residuals"
         " were independent noise"
     )
     if heaviest is selection.selected:
-        return f"{said}; the selected candidate has the largest."
+        return f"{note}; the selected candidate has the largest."
     largest = readable(heaviest.akaike_weight, 2)
     return (
-        f"{said}; {name(heaviest.chain)} has the largest ({largest}), but the validation decides."
+        f"{note}; {name(heaviest.chain)} has the largest ({largest}), but the validation decides."
     )
 
 

@@ -54,8 +54,8 @@ def first_lines(selection: Selection) -> tuple[str, ...]:
     if selection.question:
         return (data, selection.question)
     is_near = selection.explanation.is_near
-    structure = _structure(selection) if is_near else _missed(selection)
-    more = _to_decide(selection) if is_near else _unexplained(selection)
+    structure = _structure(selection) if is_near else _report_misfit(selection)
+    more = _to_decide(selection) if is_near else _suggest_explanations(selection)
     following = "; ".join([*held_input(selection), *more])
     return (data, f"structure: {'; '.join(structure)}", f"next: {following}")
 
@@ -68,10 +68,14 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         cost = selection.task.cost
         first = (*amplitude(selection), selection.question)
         return (*first, *same_data_twice(selection), *suspicious_data(cost))
-    said = [
+    sentences = [
         *amplitude(selection),
         *_other_quantities(selection),
-        *([] if selection.explanation.is_near else [*_missed(selection), *_unexplained(selection)]),
+        *(
+            []
+            if selection.explanation.is_near
+            else [*_report_misfit(selection), *_suggest_explanations(selection)]
+        ),
         *better(selection),
         *(differing_parameters(m.disagreements) for m in selection.members[:1] if m.disagreements),
         *correlated_residuals(selection),
@@ -86,12 +90,12 @@ def suspicions(selection: Selection) -> tuple[str, ...]:
         *suspicious_data(selection.task.cost),
         *uninformative(selection),
     ]
-    return tuple(dict.fromkeys(said))
+    return tuple(dict.fromkeys(sentences))
 
 
 def not_in(answer: Sequence[str], sentences: Sequence[str]) -> list[str]:
     """Return the sentences that the first lines do not hold."""
-    return [said for said in sentences if not any(said in line for line in answer)]
+    return [sentence for sentence in sentences if not any(sentence in line for line in answer)]
 
 
 def quantity_rows(selection: Selection) -> list[tuple[str, ...]]:
@@ -158,37 +162,41 @@ def _is_joint(selection: Selection) -> bool:
 
 def _verdict(selection: Selection) -> str:
     """Does the selected structure, or the best one, explain the data?"""
-    said, best = selection.explanation, reference(selection.described.chain)
-    size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone"
-    if said.level is Level.EXPLAINS:
+    found, best = selection.explanation, reference(selection.described.chain)
+    size = f"chi2 per line {found.chi2:.3g}, 1 is noise alone"
+    if found.level is Level.EXPLAINS:
         return f"{best} explains this data ({size})"
-    if said.explains:
-        return f"{best} explains this data apart from {misfit_in_words(said)} ({size})"
-    if said.too_few:
+    if found.explains:
+        return f"{best} explains this data apart from {misfit_in_words(found)} ({size})"
+    if found.too_few:
         return (
-            f"{said.lines} lines are too few to judge {best}, the best candidate: at least"
-            f" {said.needed} are needed, two for each of its parameters and {BESIDE} more: do not"
+            f"{found.lines} lines are too few to judge {best}, the best candidate: at least"
+            f" {found.needed} are needed, two for each of its parameters and {BESIDE} more: do not"
             " use its values"
         )
-    if said.noisy:
+    if found.noisy:
         return (
             f"none of the candidates explains this data: it is mostly noise, only"
-            f" {100 * said.scatter.clear:.0f} % of the lines scatter by less than 20 %"
-            f" ({said.scatter.source}); the best one is {best}: do not use its values"
+            f" {100 * found.scatter.clear:.0f} % of the lines scatter by less than 20 %"
+            f" ({found.scatter.source}); the best one is {best}: do not use its values"
         )
     which = "none of the candidates"
-    if any(c.explains(said.scatter) for c in selection.candidates):
+    if any(c.explains(found.scatter) for c in selection.candidates):
         which = "none of the candidates that may be selected"
     return f"{which} explains this data; the best one is {best} ({size}): do not use its values"
 
 
 def _nearly(selection: Selection) -> str:
     """That the described structure comes near the data, and what else the machine may be."""
-    said, best = selection.explanation, reference(selection.described.chain)
-    where = f", most at {'; '.join(m.sentence for m in said.misses)}" if said.misses else ""
-    size = f"chi2 per line {said.chi2:.3g}, 1 is noise alone"
-    if said.systematic:
-        size += f"; residuals of neighbouring lines are correlated by {said.systematic:.2f}"
+    explanation, best = selection.explanation, reference(selection.described.chain)
+    where = (
+        f", most at {'; '.join(m.sentence for m in explanation.misses)}"
+        if explanation.misses
+        else ""
+    )
+    size = f"chi2 per line {explanation.chi2:.3g}, 1 is noise alone"
+    if explanation.systematic:
+        size += f"; residuals of neighbouring lines are correlated by {explanation.systematic:.2f}"
     found = better_in_words(selection)
     other = f"the machine may be {with_or(list(_outside(selection)))}"
     return (
@@ -284,7 +292,7 @@ def _to_decide(selection: Selection) -> Iterator[str]:
         others = [f"{x} with other values" if x == name else x for x in others]
         states = "these sensors and states" if _is_joint(selection) else "sensor"
         yield (
-            f"if it is {name}, it may as well be {_listed(others)}: no experiment with this force"
+            f"if it is {name}, it may as well be {_join(others)}: no experiment with this force"
             f" and {states} can tell, disting next looks for one that can"
         )
     if selection.explanation.level is Level.NEARLY:
@@ -297,7 +305,7 @@ def _to_decide(selection: Selection) -> Iterator[str]:
         larger = {m.name for m in selection.containing}
         unknown = fold_names(n for m in selection.members for n in m.open if n not in larger)
         if unknown:
-            yield f"unknown if these behave the same: {_listed(unknown)}"
+            yield f"unknown if these behave the same: {_join(unknown)}"
         yield from weak(selection)
 
 
@@ -350,7 +358,7 @@ def lone(selection: Selection) -> Iterator[str]:
         )
 
 
-def _missed(selection: Selection) -> Iterator[str]:
+def _report_misfit(selection: Selection) -> Iterator[str]:
     """That nothing explains the data, and where the best structure misses most."""
     yield _verdict(selection)
     if selection.explanation.misses:
@@ -359,7 +367,7 @@ def _missed(selection: Selection) -> Iterator[str]:
         yield _explained_by(found)
 
 
-def _unexplained(selection: Selection) -> Iterator[str]:
+def _suggest_explanations(selection: Selection) -> Iterator[str]:
     """Possible explanations of the data."""
     yield from _other_quantities(selection)
     if selection.explanation.too_few:
@@ -387,6 +395,6 @@ def _unexplained(selection: Selection) -> Iterator[str]:
     yield from better(selection)
 
 
-def _listed(names: list[str]) -> str:
+def _join(names: list[str]) -> str:
     more = len(names) - FEW
     return ", ".join(names[:FEW]) + (f" and {more} more" if more > 0 else "")

@@ -47,9 +47,9 @@ def readable(value: float, digits: int = 3, *, all_digits: bool = False) -> str:
         return "∞" if value == inf else "–"
     if value == 0 or 1e-3 <= abs(value) < 1e4:
         text = plain(value, digits)
-        return text if all_digits else _shortened(text)
+        return text if all_digits else _shorten(text)
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    mantissa = mantissa if all_digits else _shortened(mantissa)
+    mantissa = mantissa if all_digits else _shorten(mantissa)
     power = f"10{str(int(exponent)).translate(RAISED)}"
     return power if mantissa == "1" else f"{mantissa}·{power}"
 
@@ -62,7 +62,7 @@ def plain(value: float, digits: int) -> str:
     return f"{round(value, decimals):.{max(decimals, 0)}f}"
 
 
-def _shortened(text: str) -> str:
+def _shorten(text: str) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
@@ -126,16 +126,16 @@ def name(chain: Chain) -> str:
     >>> name(Chain(2, ground_dampers=(2,), dead_time=True)), name(Chain(1))
     ('2 masses, damper b2, dead time', '1 mass')
     """
-    said = [plural(chain.n_masses, "mass", "masses")]
+    words = [plural(chain.n_masses, "mass", "masses")]
     if chain.indices[1:] != Chain(chain.n_masses, damped=False).indices[1:]:
-        said += [f"gap {chain.gap}–{chain.gap + 1}"] if chain.gap else []
-        said.append(f"force {_port(chain.act_minus, chain.act_plus)}")
-        said.append(f"sensor {_port(chain.meas_minus, chain.meas_plus)}")
+        words += [f"gap {chain.gap}–{chain.gap + 1}"] if chain.gap else []
+        words.append(f"force {_port(chain.act_minus, chain.act_plus)}")
+        words.append(f"sensor {_port(chain.meas_minus, chain.meas_plus)}")
     names = [f"b{i}" for i in chain.ground_dampers]
     names += [Damper(chain.gap).parameter] if chain.gap_damper else []
-    said += [f"damper{'s' if len(names) > 1 else ''} {', '.join(names)}"] if names else []
+    words += [f"damper{'s' if len(names) > 1 else ''} {', '.join(names)}"] if names else []
     return ", ".join(
-        said + (["lag"] if chain.lag else []) + (["dead time"] if chain.dead_time else [])
+        words + (["lag"] if chain.lag else []) + (["dead time"] if chain.dead_time else [])
     )
 
 

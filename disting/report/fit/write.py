@@ -101,8 +101,8 @@ def plan_figure(plan: Plan, best: Design, file: str = "plan") -> FigureFiles:
         heading(figure, title)
         figure.legend(loc="outside lower center", ncols=2 if is_narrow(figure) else 5)
 
-    said = f"{title}; noise {100 * typical(noise):.2g} % a line"
-    return draw_figure(file, said, (5.2, 5.6), draw)
+    caption = f"{title}; noise {100 * typical(noise):.2g} % a line"
+    return draw_figure(file, caption, (5.2, 5.6), draw)
 
 
 def _difference(panel: "Axes", best: Design, size: Real, noise: Real) -> None:

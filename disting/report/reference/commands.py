@@ -60,7 +60,7 @@ def commands(parser: argparse.ArgumentParser, words: str = "disting") -> Iterato
     actions = [a for a in parser._actions if a.help != argparse.SUPPRESS]
     own = [a for a in actions if a not in inner and not isinstance(a, argparse._HelpAction)]
     usage = " ".join(
-        [words, *(_place(a) for a in own if _kept(a)), *(str(a.metavar) for a in inner)]
+        [words, *(_place(a) for a in own if _keeps_action(a)), *(str(a.metavar) for a in inner)]
     )
     options = tuple(_option(a, words, parser) for a in own)
     yield Command(words, parser.description or "", usage, options, parser.epilog or "")
@@ -113,7 +113,7 @@ def _value(action: argparse.Action) -> str:
     return action.dest.upper() if action.option_strings else action.dest
 
 
-def _kept(action: argparse.Action) -> bool:
+def _keeps_action(action: argparse.Action) -> bool:
     return not isinstance(action, argparse._VersionAction)
 
 

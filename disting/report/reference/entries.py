@@ -50,7 +50,7 @@ def parse(name: str) -> Module:
     tree = ast.parse(_source(name))
     aliases = [
         (node.module, alias)
-        for node in _imported(tree.body)
+        for node in _list_imports(tree.body)
         if node.module and node.module != name  # else a package names its own modules
         for alias in node.names
     ]
@@ -69,13 +69,13 @@ def parse(name: str) -> Module:
     )
 
 
-def _imported(body: list[ast.stmt]) -> Iterator[ast.ImportFrom]:
+def _list_imports(body: list[ast.stmt]) -> Iterator[ast.ImportFrom]:
     """Names that are imported when the module is, or when they are used, as `disting` does it."""
     for node in body:
         if isinstance(node, ast.ImportFrom):
             yield node
         if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-            yield from _imported(node.body)
+            yield from _list_imports(node.body)
 
 
 def public(name: str) -> tuple[str, ...]:
@@ -239,7 +239,7 @@ def _class(name: str, place: Place, node: ast.ClassDef) -> Entry:
         text,
         arguments=arguments,
         bases=bases,
-        raises=tuple(dict.fromkeys(chain(_told(text), *map(_raised, making)))),
+        raises=tuple(dict.fromkeys(chain(_list_documented(text), *map(_list_raised, making)))),
         members=tuple(m for m in members if m.kind is not Kind.FIELD),
     )
 
@@ -310,7 +310,7 @@ def _function(
         text,
         arguments=None if kind is Kind.PROPERTY else arguments,
         returns=_type(node.returns),
-        raises=tuple(dict.fromkeys(chain(_told(text), _raised(node)))),
+        raises=tuple(dict.fromkeys(chain(_list_documented(text), _list_raised(node)))),
     )
 
 
@@ -343,7 +343,7 @@ def _arguments(of: ast.arguments, module: str) -> tuple[Argument, ...]:
 
 def _argument(of: ast.arg, default: ast.expr | None, module: str, star: str = "") -> Argument:
     annotation = _type(of.annotation)
-    return Argument(of.arg, annotation, _written(default, module) if default else "", star)
+    return Argument(of.arg, annotation, _write_default(default, module) if default else "", star)
 
 
 def _type(annotation: ast.expr | None) -> str:
@@ -353,12 +353,12 @@ def _type(annotation: ast.expr | None) -> str:
     return ast.unparse(annotation) if annotation else ""
 
 
-def _written(value: ast.expr, module: str) -> str:
+def _write_default(value: ast.expr, module: str) -> str:
     """A default as a reader needs it: that of a field, and a constant's value for its name.
 
-    >>> _written(ast.parse("field(default_factory=dict)", mode="eval").body, "disting.files")
+    >>> _write_default(ast.parse("field(default_factory=dict)", mode="eval").body, "disting.files")
     'dict()'
-    >>> _written(ast.parse("PROVENANCE", mode="eval").body, "disting.files")
+    >>> _write_default(ast.parse("PROVENANCE", mode="eval").body, "disting.files")
     "'provenance.json'"
     """
     if isinstance(value, ast.Call) and ast.unparse(value.func) == "field":
@@ -377,21 +377,21 @@ def _written(value: ast.expr, module: str) -> str:
 def _value(name: str, kind: Kind, place: Place, node: Definition, text: str) -> Entry:
     assert isinstance(node, ast.Assign | ast.AnnAssign)
     annotation = _type(node.annotation) if isinstance(node, ast.AnnAssign) else ""
-    value = _written(node.value, place.module) if node.value else ""
+    value = _write_default(node.value, place.module) if node.value else ""
     return Entry(name, kind, place, text, returns=annotation, value=value)
 
 
-def _told(text: str) -> Iterator[str]:
+def _list_documented(text: str) -> Iterator[str]:
     """Exceptions that a docstring names after "Raises".
 
-    >>> list(_told("Raises InputError if not, OSError else. Returns KeyError."))
+    >>> list(_list_documented("Raises InputError if not, OSError else. Returns KeyError."))
     ['InputError', 'OSError']
     """
     for match in RAISED.finditer(text):
         yield from EXCEPTION.findall(match[1])
 
 
-def _raised(node: ast.AST) -> Iterator[str]:
+def _list_raised(node: ast.AST) -> Iterator[str]:
     """Exceptions that a body raises itself."""
     for part in ast.walk(node):
         if isinstance(part, ast.Raise) and part.exc is not None:

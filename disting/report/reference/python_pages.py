@@ -44,13 +44,13 @@ def as_html(text: str, leads: Leads) -> Markup:
 @cache
 def _parser() -> MarkdownIt:
     parser = MarkdownIt("commonmark").disable([rule for rules in PLAIN for rule in rules])
-    parser.add_render_rule("code_inline", _named)
+    parser.add_render_rule("code_inline", _render_name)
     for kind in ("fence", "code_block"):
         parser.add_render_rule(kind, _block)
     return parser
 
 
-def _named(
+def _render_name(
     _: object, tokens: Sequence[Token], place: int, __: object, env: dict[str, Leads]
 ) -> str:
     return code(tokens[place].content, env["leads"])
@@ -139,7 +139,7 @@ def page_name(module: str) -> str:
 
 
 def _page(name: str, the_entries: list[Entry], addresses: Mapping[Place, str]) -> GuidePage:
-    shown = [_shown(name, entry, addresses) for entry in the_entries]
+    shown = [_show_entry(name, entry, addresses) for entry in the_entries]
     text = as_html(parse(name).text, partial(_address, name, addresses))
     body = Markup(render("reference.html", module=name, text=text, entries=shown))
     sections = [Section("", f"Python: {name}", 1, parse(name).text)]
@@ -158,7 +158,7 @@ def _sections(item: PageEntry, level: int = 2) -> Iterator[Section]:
         yield from _sections(member, level + 1)
 
 
-def _shown(
+def _show_entry(
     module: str, entry: Entry, addresses: Mapping[Place, str], within: str = ""
 ) -> PageEntry:
     leads = partial(_address, entry.place.module, addresses)
@@ -166,7 +166,9 @@ def _shown(
     anchor = f"{within}.{entry.name}" if within else entry.name
     address = addresses.get(entry.place, "")
     elsewhere = "" if within or address.startswith(f"{page_name(module)}.html") else address
-    members = [_shown(module, m, addresses, anchor) for m in entry.members] if not elsewhere else []
+    members = (
+        [_show_entry(module, m, addresses, anchor) for m in entry.members] if not elsewhere else []
+    )
     return PageEntry(
         entry=entry,
         anchor=anchor,
@@ -194,8 +196,8 @@ def _signature(entry: Entry, leads: Leads) -> Markup:
     where one line is too short for all.
     """
     if entry.arguments is None:
-        return _valued(entry, leads)
-    written = [_written(argument, leads) for argument in entry.arguments]
+        return _show_value(entry, leads)
+    written = [_write_argument(argument, leads) for argument in entry.arguments]
     end = Markup(" -&gt; ") + link(entry.returns, leads) if entry.returns else Markup()
     width = len(entry.name) + sum(len(w.striptags()) + 2 for w in written) + len(end.striptags())
     if width <= WIDEST:
@@ -204,7 +206,7 @@ def _signature(entry: Entry, leads: Leads) -> Markup:
     return Markup("{}(\n{})").format(entry.name, lines) + end
 
 
-def _valued(entry: Entry, leads: Leads) -> Markup:
+def _show_value(entry: Entry, leads: Leads) -> Markup:
     """A property, a constant or a member of an enumeration; of a class its name."""
     parts = Markup(entry.name)
     if entry.returns:
@@ -212,7 +214,7 @@ def _valued(entry: Entry, leads: Leads) -> Markup:
     return parts + (Markup(" = ") + link(entry.value, leads) if entry.value else "")
 
 
-def _written(argument: Argument, leads: Leads) -> Markup:
+def _write_argument(argument: Argument, leads: Leads) -> Markup:
     markup = Markup("{}{}").format(argument.star, argument.name)
     if argument.annotation:
         markup += Markup(": ") + link(argument.annotation, leads)
