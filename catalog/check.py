@@ -23,7 +23,7 @@ import time
 from collections import Counter, namedtuple
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache
-from itertools import combinations, permutations
+from itertools import combinations, count, permutations
 from operator import mul as times
 from pathlib import Path
 
@@ -161,40 +161,39 @@ def through(values, columns, p):
     return trim([sum(map(times, values, column)) % p for column in columns])
 
 
-def rank_of(rows, p):
-    """Rank of a matrix modulo p."""
-    rows, rank = [list(r) for r in rows], 0
-    for col in range(len(rows[0]) if rows else 0):
-        pivot = next((i for i in range(rank, len(rows)) if rows[i][col]), None)
+def reduced(rows, width, p):
+    """(reduced row echelon form of the first columns, columns of its pivots, determinant of these
+    if they are all) modulo p.
+    """
+    rows, pivots, det = [list(r) for r in rows], [], 1
+    for col in range(width):
+        k = len(pivots)
+        pivot = next((i for i in range(k, len(rows)) if rows[i][col] % p), None)
         if pivot is None:
             continue
-        rows[rank], rows[pivot] = rows[pivot], rows[rank]
-        inverse = pow(rows[rank][col], -1, p)
-        top = [x * inverse % p for x in rows[rank]]
-        for i in range(rank + 1, len(rows)):
-            if f := rows[i][col]:
-                rows[i] = [(x - f * y) % p for x, y in zip(rows[i], top)]
-        rank += 1
-    return rank
+        if pivot != k:
+            rows[k], rows[pivot], det = rows[pivot], rows[k], -det
+        det = det * rows[k][col] % p
+        inverse = pow(rows[k][col], -1, p)
+        top = rows[k] = [x * inverse % p for x in rows[k]]
+        for i, row in enumerate(rows):
+            if i != k and (f := row[col]):
+                rows[i] = [(x - f * y) % p for x, y in zip(row, top)]
+        pivots.append(col)
+    return rows, pivots, det
+
+
+def rank_of(rows, p):
+    """Rank of a matrix modulo p."""
+    return len(reduced(rows, len(rows[0]) if rows else 0, p)[1])
 
 
 def inverse_of(rows, p):
     """(inverse, determinant) modulo p; None for a singular matrix."""
-    n, det = len(rows), 1
-    a = [list(r) + [int(i == j) for j in range(n)] for i, r in enumerate(rows)]
-    for col in range(n):
-        pivot = next((i for i in range(col, n) if a[i][col] % p), None)
-        if pivot is None:
-            return None
-        if pivot != col:
-            a[col], a[pivot], det = a[pivot], a[col], -det
-        det = det * a[col][col] % p
-        inverse = pow(a[col][col], -1, p)
-        a[col] = [x * inverse % p for x in a[col]]
-        for i in range(n):
-            if i != col and (f := a[i][col]):
-                a[i] = [(x - f * y) % p for x, y in zip(a[i], a[col])]
-    return [r[n:] for r in a], det
+    n = len(rows)
+    both = [[*r, *(int(i == j) for j in range(n))] for i, r in enumerate(rows)]
+    done, pivots, det = reduced(both, n, p)
+    return ([r[n:] for r in done], det) if len(pivots) == n else None
 
 
 # ---- models, built from their names ------------------------------------------------------------
@@ -210,6 +209,11 @@ POWER = {"m": 2, "j": 2, "d": 1, "b": 1, "k": 0, "C": 1, "R": 0, "L": -1, "W": 0
 
 def element(kind, name, a, b, exponent=""):
     return Element(kind, name, a, b, POWER[kind], kind in "RLW", exponent)
+
+
+def named(name, a, b):
+    """An element by its name; a constant phase element has an exponent of its own."""
+    return element(name[0], name, a, b, "n" + name[1:] if name[0] == "P" else "")
 
 
 def model(text, elements, force, sensor, order=0, fixed=0, lag=False, delay=False, names=None):
@@ -243,44 +247,25 @@ def chain(n, gap, am, ap, mm, mp, damped, dampers=(), lag=False, delay=False, or
 
 def series_parallel(text):
     """`R1-p(L1,R2)` as elements between nodes; the port is 1, 0."""
-    tokens, place, fresh, out = re.findall(r"[A-Z]\d+|[-p(),]", text), [0], [1], []
-    if "".join(tokens) != text:
+    if not re.fullmatch(r"(?:[A-Z]\d+|[-p(),])+", text):
         raise ValueError(f"no circuit: {text}")
-
-    def one():
-        token = tokens[place[0]]
-        place[0] += 1
-        if token != "p":
-            return token
-        branches = []
-        while tokens[place[0]] in "(,":
-            place[0] += 1
-            branches.append(row())
-        place[0] += 1
-        return ("p", branches)
-
-    def row():
-        parts = [one()]
-        while place[0] < len(tokens) and tokens[place[0]] == "-":
-            place[0] += 1
-            parts.append(one())
-        return ("s", parts)
+    fresh, out = count(2), []
 
     def lay(tree, a, b):
-        if isinstance(tree, str):
-            out.append(element(tree[0], tree, a, b, "n" + tree[1:] if tree[0] == "P" else ""))
-        elif tree[0] == "p":
-            for branch in tree[1]:
+        if isinstance(tree, ast.Name):
+            out.append(named(tree.id, a, b))
+        elif isinstance(tree, ast.Call):
+            for branch in tree.args:
                 lay(branch, a, b)
         else:
-            ends = [a]
-            for _ in tree[1][1:]:
-                fresh[0] += 1
-                ends.append(fresh[0])
-            for part, x, y in zip(tree[1], ends, [*ends[1:], b]):
+            row = []
+            while isinstance(tree, ast.BinOp):
+                row, tree = [tree.right, *row], tree.left
+            ends = [a, *(next(fresh) for _ in row), b]
+            for part, x, y in zip([tree, *row], ends, ends[1:]):
                 lay(part, x, y)
 
-    lay(row(), 1, 0)
+    lay(ast.parse(text, mode="eval").body, 1, 0)
     return model(text, out, (1, 0), (1, 0))
 
 
@@ -289,19 +274,24 @@ def ends_of(text):
     return int(a), int(b or 0)
 
 
+def joints(head, signs):
+    """Yield (node, sign, node) of paths such as `#~1, 1=2=3`, the ground as 0."""
+    for path in head.split(","):
+        tokens = re.findall(rf"#|\d+|{signs}", path)
+        if "".join(tokens) != path.replace(" ", ""):
+            raise ValueError(f"no network: {head}")
+        for a, joint, b in zip(tokens[::2], tokens[1::2], tokens[2::2]):
+            yield int(a.replace("#", "0")), joint, int(b.replace("#", "0"))
+
+
 def machine(text):
     """`#~1, 1=2; F2:1; S2`: springs (~), dampers (-), both (=), a mass at each node."""
     head, force, sensor = (part.strip() for part in text.split(";"))
     parts, nodes = [], set()
-    for path in head.split(","):
-        tokens = re.findall(r"#|\d+|[~=-]", path)
-        if "".join(tokens) != path.replace(" ", ""):
-            raise ValueError(f"no machine: {text}")
-        for a, joint, b in zip(tokens[::2], tokens[1::2], tokens[2::2]):
-            a, b = (0 if x == "#" else int(x) for x in (a, b))
-            nodes |= {a, b} - {0}
-            for kind in {"~": "k", "-": "d", "=": "kd"}[joint]:
-                parts.append(element(kind, kind + between(a, b), a, b))
+    for a, joint, b in joints(head, "[~=-]"):
+        nodes |= {a, b} - {0}
+        for kind in {"~": "k", "-": "d", "=": "kd"}[joint]:
+            parts.append(element(kind, kind + between(a, b), a, b))
     parts += [element("m", f"m{i}", i, 0) for i in sorted(nodes)]
     if force[0] != "F" or sensor[0] != "S":
         raise ValueError(f"no ports: {text}")
@@ -311,12 +301,8 @@ def machine(text):
 def compartments(text):
     head, force, sensor = (part.strip() for part in text.split(";"))
     flows = []
-    for path in head.split(","):
-        tokens = re.findall(r"\d+|<>|>", path)
-        if "".join(tokens) != path.replace(" ", ""):
-            raise ValueError(f"no compartments: {text}")
-        for a, arrow, b in zip(tokens[::2], tokens[1::2], tokens[2::2]):
-            flows += [(int(a), int(b)), *[(int(b), int(a))] * (arrow == "<>")]
+    for a, arrow, b in joints(head, "<>|>"):
+        flows += [(a, b), *[(b, a)] * (arrow == "<>")]
     parts = [element("f", f"a{i}{j}", i, j) for i, j in flows]
     given, seen = (int(re.fullmatch(r"(?:in|out) (\d+)", x)[1]) for x in (force, sensor))
     return model(text, parts, (given, 0), (seen, 0), 0, 1)
@@ -331,7 +317,7 @@ def listed(text):
         if name in ports:
             ports[name] = ends
         else:
-            parts.append(element(name[0], name, *ends, "n" + name[1:] if name[0] == "P" else ""))
+            parts.append(named(name, *ends))
     return model(text, parts, ports["in"], ports["out"])
 
 
@@ -424,25 +410,21 @@ def agree(left, x, right, y, label, p, scale=2):
     exponents are those of the same names, or exchanged.
     """
     own, others = left.exponents, right.exponents
+
+    def at_one(label, of):
+        s = 2 + number(f"{label} s") % (p - 2)
+        z = draw(f"{label} z", own, p)
+        a = value(left, x, s, p, z, scale)
+        return a is not None and a == value(right, y, s, p, {n: z[of[n]] for n in of}, scale)
+
     return (
         left.delay == right.delay
         and len(own) == len(others)
         and any(
-            all(
-                _agree_at(left, x, right, y, f"{label} {k}", p, scale, dict(zip(order, own)))
-                for k in range(3)
-            )
+            all(at_one(f"{label} {k}", dict(zip(order, own))) for k in range(3))
             for order in permutations(others)
         )
     )
-
-
-def _agree_at(left, x, right, y, label, p, scale, of):
-    s = 2 + number(f"{label} s") % (p - 2)
-    z = draw(f"{label} z", left.exponents, p)
-    a = value(left, x, s, p, z, scale)
-    b = value(right, y, s, p, {n: z[of[n]] for n in of}, scale)
-    return a is not None and a == b
 
 
 class Profile:
@@ -604,24 +586,17 @@ profile = lru_cache(maxsize=None)(Profile)
 Pair = namedtuple("Pair", "left right label scale")
 Result = namedtuple("Result", "status why")
 DISTINGUISHABLE, SAME = "distinguishable", "indistinguishable"
+SOMETIMES = "sometimes"
 SHOWS = {
-    "counts": DISTINGUISHABLE,
-    "forms": DISTINGUISHABLE,
-    "ranks": DISTINGUISHABLE,
-    "constants": DISTINGUISHABLE,
-    "refuted": DISTINGUISHABLE,
-    "shared": DISTINGUISHABLE,
-    "renaming": SAME,
-    "free-choice": SAME,
-    "embedding": SAME,
-    "solved": SAME,
-    "full-parts": SAME,
-    "explicit": SAME,
-    "no equivalent": DISTINGUISHABLE,
-    "inequality": DISTINGUISHABLE,
-    "witnesses": "sometimes",
-    "of-part": "sometimes",
+    **dict.fromkeys(
+        ("counts", "forms", "ranks", "constants", "refuted", "shared"), DISTINGUISHABLE
+    ),
+    **dict.fromkeys(("no equivalent", "inequality"), DISTINGUISHABLE),
+    **dict.fromkeys(("renaming", "free-choice", "embedding", "solved"), SAME),
+    **dict.fromkeys(("full-parts", "explicit"), SAME),
+    **dict.fromkeys(("witnesses", "of-part"), SOMETIMES),
 }
+FINDING = {SAME: "holds", DISTINGUISHABLE: "fails", SOMETIMES: "sometimes"}
 
 
 def result(is_right, why):
@@ -630,6 +605,10 @@ def result(is_right, why):
 
 def searched(why):
     return Result(SEARCH, why)
+
+
+def pair_of(left, right, scale=1):
+    return Pair(left, right, f"{left.text} | {right.text}", scale)
 
 
 def sides(pair):
@@ -1018,14 +997,13 @@ def rows_of(m):
 
 def is_dual(a, b):
     """Gap g with both ports at its sides, against gap N - 1 - g, up to symmetry."""
-    n, gap, damped = indices(a)[0], indices(a)[1], indices(a)[6]
-    wanted = {"free": row_key(gap + 1, False, 1, 1)}
-    if n - 1 - gap:
-        wanted["grounded"] = row_key(n - 1 - gap, True, n - 1 - gap, n - 1 - gap)
-    own = {"free": row_key(n - gap, False, 1, 1)}
-    if gap:
-        own["grounded"] = row_key(gap, True, gap, gap)
-    return damped and rows_of(a) == own and rows_of(b) == wanted
+    n, gap, *_, damped, _ = indices(a)
+
+    def around(gap):
+        grounded = {"grounded": row_key(gap, True, gap, gap)} if gap else {}
+        return {"free": row_key(n - gap, False, 1, 1), **grounded}
+
+    return damped and rows_of(a) == around(gap) and rows_of(b) == around(n - 1 - gap)
 
 
 def is_foster(m):
@@ -1036,19 +1014,21 @@ def is_foster(m):
 def theorem(pair, e):
     """Whether the theorem's premises hold for two chains; those of networks are not derived."""
     a, b, name = pair.left, pair.right, e["name"]
-    if not (a.text.startswith("chain") and b.text.startswith("chain")):
-        return searched(f"theorem {name}: its premises are not derived again")
-    plain = all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
-    same_size = indices(a)[0] == indices(b)[0] and indices(a)[6] == indices(b)[6]
+    are_chains = all(m.text.startswith("chain") for m in (a, b))
+    plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
     if not plain or name not in ("symmetry", "duality", "Foster", "Cauer"):
         return searched(f"theorem {name}: its premises are not derived again")
-    holds = {
-        "symmetry": lambda: rows_of(a) == rows_of(b),
-        "duality": lambda: is_dual(a, b) or is_dual(b, a),
-        "Foster": lambda: is_foster(a) and is_foster(b),
-        "Cauer": lambda: is_foster(a) and is_foster(b),
-    }[name]()
-    return result(same_size and holds, f"premises of {name}")
+    same_size = indices(a)[0] == indices(b)[0] and indices(a)[6] == indices(b)[6]
+    return result(same_size and same_by(a, b, name), f"premises of {name}")
+
+
+def same_by(a, b, name):
+    """Whether two chains are what a theorem asks for."""
+    if name == "symmetry":
+        return rows_of(a) == rows_of(b)
+    if name == "duality":
+        return is_dual(a, b) or is_dual(b, a)
+    return is_foster(a) and is_foster(b)
 
 
 def by_search(pair, e):
@@ -1058,20 +1038,17 @@ def by_search(pair, e):
 # inclusions: one model is a limit of the other one, or is none
 
 
+LIMITS = ("full-image", "limit", "meeting", "limit-fibre")
+NO_LIMIT = ("counts", "larger-projection", "too-large", "relative-degrees", "outside")
+NO_LIMIT += ("pole-sharing", "refuted")
+
+
 def relation_of_inclusion(pair, e, found):
     """Evidence that speaks for a limit names the larger side; what `inclusion` says must fit."""
     side = {True: "left", False: "right"}.get(e.get("left_is_larger", e.get("left_is_part")))
-    if e["kind"] in ("full-image", "limit", "meeting", "limit-fibre"):
+    if e["kind"] in LIMITS:
         return found == ("right-in-left" if side == "left" else "left-in-right")
-    if e["kind"] in (
-        "counts",
-        "larger-projection",
-        "too-large",
-        "relative-degrees",
-        "outside",
-        "pole-sharing",
-        "refuted",
-    ):
+    if e["kind"] in NO_LIMIT:
         return found == "neither"
     return True
 
@@ -1174,16 +1151,11 @@ def limit(pair, e):
         if shape:
             n, *rest = shape
             other = chain(n, *rest, indices(own)[6])
-            is_same = (
-                rows_of(own) == rows_of(other)
-                or is_dual(own, other)
-                or is_dual(other, own)
-                or (is_foster(own) and is_foster(other))
-            )
+            is_same = any(same_by(own, other, x) for x in ("symmetry", "duality", "Foster"))
             if n != indices(own)[0] or not is_same:
                 return result(False, "a chain that is not the same")
             larger, smaller = (other, smaller) if own is larger else (larger, other)
-    have, want, why = rows_of(larger), rows_of(smaller), "rows"
+    have, want, counted = rows_of(larger), rows_of(smaller), False
     if sorted(part[1] for part in e["parts"]) != sorted(want):
         return result(False, "rows are missing")
     for given, wanted, steps, room in e["parts"]:
@@ -1193,56 +1165,27 @@ def limit(pair, e):
             row = row_key(*row) if row else None
         if row is None:
             return searched("a step that is not known here")
-        if room and not sum(room[::2]) + room[3] - 0 >= 0:
+        if room and (room[0] + room[2] + room[3] < max(0, room[1])):
             return result(False, "the count fails")
-        if room:
-            if room[0] + room[2] + room[3] < room[1]:
-                return result(False, "the count fails")
-            why = "count"
-        elif row != want[wanted]:
+        if not room and row != want[wanted]:
             return result(False, "a row ends as another one")
-    return (
-        searched("steps followed, the count not repeated")
-        if why == "count"
-        else Result(CHECKED, "limits followed, row by row")
-    )
+        counted = counted or bool(room)
+    if counted:
+        return searched("steps followed, the count not repeated")
+    return Result(CHECKED, "limits followed, row by row")
 
 
-CHECKS = {
-    "counts": counts,
-    "forms": forms,
-    "ranks": ranks,
-    "renaming": renaming,
-    "free-choice": free_choice,
-    "embedding": embedding,
-    "solved": solutions,
-    "explicit": explicit,
-    "witnesses": witnesses,
-    "no equivalent": no_equivalent,
-    "inequality": inequality,
-    "replaced": inner_of,
-    "at-inverse": inner_of,
-    "of-part": of_part,
-    "theorem": theorem,
-    "full-image": full_image,
-    "larger-projection": larger_projection,
-    "limit": limit,
-    "relative-degrees": relative_degrees,
-    "too-large": too_large,
-    "meeting": meeting,
-}
+NAMED = (counts, forms, ranks, renaming, embedding, explicit, witnesses, inequality, theorem, limit)
+NAMED += (free_choice, of_part, full_image, larger_projection, relative_degrees, too_large, meeting)
+CHECKS = {check.__name__.replace("_", "-"): check for check in NAMED}
+CHECKS |= {"solved": solutions, "replaced": inner_of, "at-inverse": inner_of}
+CHECKS["no equivalent"] = no_equivalent
+UNREADABLE = (KeyError, ValueError, TypeError, IndexError, AttributeError)
+UNREADABLE += (ArithmeticError, SyntaxError, RecursionError)
 
 
-UNREADABLE = (
-    KeyError,
-    ValueError,
-    TypeError,
-    IndexError,
-    AttributeError,
-    ArithmeticError,
-    SyntaxError,
-    RecursionError,
-)
+def unreadable(why):
+    return f"{type(why).__name__} {why}"
 
 
 def evidence(pair, e):
@@ -1252,7 +1195,7 @@ def evidence(pair, e):
     except NotImplementedError as why:
         return searched(f"not known here: {why}"[:60])
     except UNREADABLE as why:
-        return Result(WRONG, f"cannot be read: {type(why).__name__} {why}"[:90])
+        return result(False, f"cannot be read: {unreadable(why)}"[:90])
 
 
 # ---- files --------------------------------------------------------------------------------------
@@ -1264,9 +1207,9 @@ class Table:
     def __init__(self):
         self.counts, self.wrong = {}, []
 
-    def add(self, kind, place, what, found, where):
+    def add(self, kind, place, what, found, where, times_=1):
         row = self.counts.setdefault((kind, place, what, found.why), Counter())
-        row[found.status] += 1
+        row[found.status] += times_
         if found.status == WRONG:
             self.wrong.append(f"{where}: {place} {what}: {found.why}")
 
@@ -1313,15 +1256,8 @@ def consistent(table, kind, where, verdicts):
     of = classes([pair for pair, relation in verdicts.items() if relation == SAME])
     for (a, b), relation in verdicts.items():
         if relation == DISTINGUISHABLE and of.get(a, a) == of.get(b, b):
-            expect(
-                table,
-                kind,
-                "classes",
-                "transitivity",
-                False,
-                f"{where} {a} {b}",
-                "distinguishable in one class",
-            )
+            why = "distinguishable in one class"
+            expect(table, kind, "classes", "transitivity", False, f"{where} {a} {b}", why)
     expect(table, kind, "classes", "transitivity", True, where)
 
 
@@ -1333,53 +1269,30 @@ def chain_record(table, kind, where, r, m):
     found = (list(x.model.names), x.degrees, len(x.varying), x.full_rank)
     right = found == (r["parameters"], r["degrees"], r["free"], r["rank"])
     expect(table, kind, "model", "degrees, rank", right, where)
-    told = r["identifiability"]
-    table.add(
-        kind,
-        "model",
-        "identifiability",
-        searched("numbers of equivalents")
-        if told["rank"] == x.full_rank
-        else Result(WRONG, "rank"),
-        where,
-    )
+    is_same = r["identifiability"]["rank"] == x.full_rank
+    found = searched("numbers of equivalents") if is_same else Result(WRONG, "rank")
+    table.add(kind, "model", "identifiability", found, where)
 
 
-def verdict_of(pair_record):
-    """(slot, part of the record) that decides over complex parameters."""
-    for slot in ("tf", "markov", "structure", "fibre"):
-        if slot in pair_record:
-            yield slot, pair_record[slot]
-
-
-RULES = {
-    "counts": ("1", "2"),
-    "forms": ("3",),
-    "ranks": ("4", "5"),
-    "renaming": ("6",),
-    "free-choice": ("7",),
-    "embedding": ("8",),
-    "supermodel": ("9",),
-}
+RULES = {"counts": "12", "forms": "3", "ranks": "45", "renaming": "6", "free-choice": "7"}
+RULES |= {"embedding": "8", "supermodel": "9"}
 
 
 def chain_pair(table, kind, where, r, pair, verdicts):
     """All evidence of one pair of chains."""
     shown = set()
-    for slot, told in verdict_of(r):
-        e = told["evidence"]
+    for slot in {"tf", "markov", "structure", "fibre"} & r.keys():
+        e = (told := r[slot])["evidence"]
         found = evidence(pair, e)
         relation = told.get("relation", SHOWS.get(e["kind"], SHOWS.get(slot, "")))
         rules = RULES.get(e["kind"])
-        if rules and told["decided_by"] not in rules:
+        if rules and told["decided_by"] not in {*rules}:
             found = Result(WRONG, "another condition than its evidence")
         if (e["kind"] in SHOWS and relation != SHOWS[e["kind"]]) or (
             e["kind"] == "theorem" and relation != SAME
         ):
             found = Result(WRONG, "a relation that its evidence does not show")
-        if relation == SAME and [x.full_rank for x in sides(pair)][::-1] != [
-            x.full_rank for x in sides(pair)
-        ]:
+        if relation == SAME and len({x.full_rank for x in sides(pair)}) > 1:
             found = Result(WRONG, "the same, with unequal ranks")
         shown.add(relation)
         table.add(kind, slot, e["kind"], found, where)
@@ -1388,12 +1301,11 @@ def chain_pair(table, kind, where, r, pair, verdicts):
     verdicts[r["left"], r["right"]] = next(iter(shown), "undecided")
     for slot in ("left_positive", "right_positive", "real"):
         if slot in r and (e := r[slot].get("evidence")):
-            found = evidence(pair, e)
-            table.add(kind, slot, e["kind"], found, where)
+            table.add(kind, slot, e["kind"], evidence(pair, e), where)
     for side in ("closure", "image"):
         told = r.get("inclusions", {}).get(side, {})
         if e := told.get("evidence"):
-            found = evidence(pair, e) if e["kind"] != "counts" else counts(pair, e)
+            found = evidence(pair, e)
             if side == "closure" and not relation_of_inclusion(pair, e, told["inclusion"]):
                 found = Result(WRONG, "an inclusion that its evidence does not show")
             table.add(kind, side, e["kind"], found, where)
@@ -1409,7 +1321,7 @@ def chains_file(table, name, lines):
             chain_record(table, kind, where, r, m)
         else:
             a, b = models[r["left"]], models[r["right"]]
-            chain_pair(table, kind, where, r, Pair(a, b, f"{a.text} | {b.text}", 1), verdicts)
+            chain_pair(table, kind, where, r, pair_of(a, b), verdicts)
     whole = set(combinations(range(1, head["models"] + 1), 2))
     right = set(verdicts) == whole and len(lines) == 1 + len(models) + len(whole)
     right = right and set(models.values()) == set(enumerated(head["n_masses"], head["damped"]))
@@ -1437,8 +1349,7 @@ def sizes_file(table, name, lines):
         models |= {f"{n}:{k}": m for k, m in enumerate(every, 1)}
     for k, r in enumerate(lines[1:], 2):
         a, b = models[r["left"]], models[r["right"]]
-        pair = Pair(a, b, f"{a.text} | {b.text}", 1)
-        chain_pair(table, "sizes", f"{name}:{k}", r, pair, verdicts)
+        chain_pair(table, "sizes", f"{name}:{k}", r, pair_of(a, b), verdicts)
     wanted = {(a, b) for a, b in combinations(models, 2) if a[0] < b[0]}
     expect(table, "sizes", "file", "all pairs", set(verdicts) == wanted, name)
 
@@ -1449,11 +1360,8 @@ def sets_of(n):
 
 def apart(a, b):
     """Whether degrees, varying coefficients, ranks or constants tell two models apart."""
-    if (
-        a.degrees != b.degrees
-        or a.model.delay != b.model.delay
-        or (len(a.model.exponents) != len(b.model.exponents))
-    ):
+    exponents = [len(x.model.exponents) for x in (a, b)]
+    if a.degrees != b.degrees or a.model.delay != b.model.delay or exponents[0] != exponents[1]:
         return True
     return a.full_rank != b.full_rank or a.varying != b.varying or a.constants != b.constants
 
@@ -1482,12 +1390,9 @@ def dampers_file(table, name, lines):
     firsts = [members[0] for members in groups.values()]
     keys = Counter((tuple(x.degrees), x.full_rank, frozenset(x.varying)) for x in firsts)
     close, whole = sum(c * (c - 1) // 2 for c in keys.values()), len(firsts)
-    row = table.counts.setdefault(("dampers", "class", "distinguishable", "invariants"), Counter())
-    row[CHECKED] += whole * (whole - 1) // 2 - close
-    row = table.counts.setdefault(
-        ("dampers", "class", "distinguishable", "classes that invariants leave alike"), Counter()
-    )
-    row[SEARCH] += close
+    told = Result(CHECKED, "invariants"), searched("classes that invariants leave alike")
+    for found, many in zip(told, (whole * (whole - 1) // 2 - close, close)):
+        table.add("dampers", "class", "distinguishable", found, name, many)
 
 
 def chain_text(text):
@@ -1502,16 +1407,13 @@ def chain_text(text):
     return chain(n, gap, am, ap, mm, mp, bool(got[7]), dampers)
 
 
-FINDS = {
-    "solved": "holds",
-    "explicit": "holds",
-    "refuted": "fails",
-    "shared": "fails",
-    "no equivalent": "fails",
-    "inequality": "fails",
-    "witnesses": "sometimes",
-    "of-part": "sometimes",
-}
+def of_verdict(table, kind, place, part, pair, where):
+    """The evidence of a verdict, if it has any, and whether it shows the relation."""
+    if e := part.get("evidence"):
+        found, relation = evidence(pair, e), SHOWS.get(e["kind"])
+        if relation and part.get("relation", relation) != relation:
+            found = Result(WRONG, "a relation that its evidence does not show")
+        table.add(kind, place, e["kind"], found, where)
 
 
 def finding(table, kind, where, told, pair):
@@ -1520,7 +1422,7 @@ def finding(table, kind, where, told, pair):
         found, core = evidence(pair, e), e
         while "inner" in core:
             core = core["inner"]
-        if told[1] != FINDS.get(core["kind"], told[1]):
+        if told[1] != FINDING.get(SHOWS.get(core["kind"]), told[1]):
             found = Result(WRONG, "a finding that its evidence does not show")
         table.add(kind, "finding", e["kind"], found, where)
     elif told[1] != "abandoned":
@@ -1529,10 +1431,8 @@ def finding(table, kind, where, told, pair):
 
 def settled_file(table, name, lines):
     for k, r in enumerate(lines, 1):
-        a, b = chain_text(r["left"]), chain_text(r["right"])
-        finding(
-            table, "settled", f"{name}:{k}", r["finding"], Pair(a, b, f"{a.text} | {b.text}", 1)
-        )
+        pair = pair_of(chain_text(r["left"]), chain_text(r["right"]))
+        finding(table, "settled", f"{name}:{k}", r["finding"], pair)
 
 
 def network_record(table, kind, where, r):
@@ -1565,22 +1465,18 @@ def networks_file(table, name, lines):
             groups[r["model"]] = r["group"]
             continue
         key = r["left"], r["right"]
-        a, b = models[key[0]], models[key[1]]
-        pair = Pair(a, b, f"{a.text} | {b.text}", scale)
+        pair = pair_of(models[key[0]], models[key[1]], scale)
         told[key] = r
         if groups[key[0]] != groups[key[1]] or not groups[key[0]]:
             expect(table, kind, "pair", "class", False, where, "a pair of two classes")
         for domain in ("complex", "positive"):
-            if e := r.get(domain, {}).get("evidence"):
-                found = evidence(pair, e)
-                if SHOWS.get(e["kind"], r[domain]["relation"]) != r[domain]["relation"]:
-                    found = Result(WRONG, "a relation that its evidence does not show")
-                table.add(kind, domain, e["kind"], found, where)
+            of_verdict(table, kind, domain, r.get(domain, {}), pair, where)
         if "complex" in r:
             verdicts[key] = r["complex"]["relation"]
         if "finding" in r:
             finding(table, kind, where, r["finding"], pair)
-            table.add(*agreement(kind, r), where)
+            fits = r["finding"][1] in (FINDING.get(r["positive"]["relation"]), "abandoned")
+            expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
     for key, r in told.items():
         if "as" in r:
             of = tuple(sorted(r["as"]))
@@ -1589,15 +1485,6 @@ def networks_file(table, name, lines):
             verdicts.setdefault(key, verdicts.get(of, "missing"))
     consistent(table, kind, name, verdicts)
     unlisted(table, kind, name, models, groups, verdicts, scale)
-
-
-def agreement(kind, r):
-    """The verdict over positive parameters is what the finding says."""
-    said = {"holds": SAME, "fails": DISTINGUISHABLE, "sometimes": "sometimes"}
-    wanted = said.get(r["finding"][1])
-    if wanted and r["positive"]["relation"] not in (wanted,):
-        return kind, "positive", "verdict", Result(WRONG, "another one than the finding")
-    return kind, "positive", "verdict", Result(CHECKED, "as the finding says")
 
 
 def unlisted(table, kind, name, models, groups, verdicts, scale):
@@ -1609,15 +1496,8 @@ def unlisted(table, kind, name, models, groups, verdicts, scale):
                 expect(table, kind, "pair", "class", False, where, "a pair of a class is missing")
         else:
             x, y = profile(models[a], scale), profile(models[b], scale)
-            table.add(
-                kind,
-                "unlisted",
-                "",
-                Result(CHECKED, "invariants")
-                if apart(x, y)
-                else searched("degrees, ranks and constants agree"),
-                where,
-            )
+            told = Result(CHECKED, "invariants"), searched("degrees, ranks and constants agree")
+            table.add(kind, "unlisted", "", told[not apart(x, y)], where)
 
 
 def candidates_file(table, name, lines):
@@ -1674,17 +1554,12 @@ def verdict_file(table, name, told):
         if any(told.get(k) or told["query"].get(k) for k in ("experiments", "also", "places")):
             raise ValueError("several experiments")
     except UNREADABLE as why:
-        found = searched(f"not known here: {type(why).__name__} {why}"[:90])
+        found = searched(f"not known here: {unreadable(why)}"[:90])
         return table.add("verdict", "models", "", found, name)
     half = any(e.kind in "WP" for m in (a, b) for e in m.elements)
-    pair = Pair(a, b, f"{a.text} | {b.text}", 2 if half else 1)
+    pair = pair_of(a, b, 2 if half else 1)
     for place, part in (("verdict", told), ("over complex", told.get("over_complex") or {})):
-        if e := part.get("evidence"):
-            found = evidence(pair, e)
-            relation = SHOWS.get(e["kind"])
-            if relation and part.get("relation", relation) != relation:
-                found = Result(WRONG, "a relation that its evidence does not show")
-            table.add("verdict", place, e["kind"], found, name)
+        of_verdict(table, "verdict", place, part, pair, name)
     if not table.counts:
         table.add("verdict", "verdict", "none", searched("no evidence in the file"), name)
 
@@ -1709,7 +1584,7 @@ def check_file(table, path):
         lines = [json.loads(line) for line in text.splitlines()]
         return FILES[re.match(r"[a-z]+", path.stem)[0]](table, path.name, lines)
     except UNREADABLE as why:
-        found = Result(WRONG, f"cannot be read: {type(why).__name__} {why}"[:90])
+        found = result(False, f"cannot be read: {unreadable(why)}"[:90])
         table.add("file", "file", "", found, path.name)
 
 
