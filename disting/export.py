@@ -164,7 +164,8 @@ def to_control_transfer_function(
     """A python-control TransferFunction, without the dead time, from poles, zeros and gain; needs
     disting[control]. Raises InputError as `to_control` does.
 
-    >>> drive = to_control_transfer_function(Chain(1, damped=False, sensor="position"), {"m1": 2.0})
+    >>> mass = Chain(1, damped=False, quantity="position")
+    >>> drive = to_control_transfer_function(mass, {"m1": 2.0})
     >>> complex(drive(1j)).real
     -0.5
     """

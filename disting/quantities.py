@@ -89,6 +89,17 @@ def as_quantity(value: Quantity | str) -> Quantity:
         raise InputError(f"quantity is {in_words(Quantity)}, not {short(value)}") from None
 
 
+def quantity_in(name: str) -> Quantity | None:
+    """The quantity of which the name of a signal has a word, None where it has none or several.
+
+    >>> quantity_in("motor_speed"), quantity_in("ActPos1"), quantity_in("y")
+    (<Quantity.VELOCITY: 'velocity'>, None, None)
+    """
+    words = set(re.findall(r"[^\W\d_]+", name.lower()))
+    found = [own for own in Quantity if words & {own.value, *own.other_words}]
+    return found[0] if len(found) == 1 else None
+
+
 def quantity_of_model(value: Quantity | str) -> Quantity:
     """The same for a model; raises InputError for one that no model can have."""
     quantity = as_quantity(value)

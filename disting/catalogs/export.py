@@ -69,7 +69,7 @@ def premise_text(left: Premise | None, right: Premise | None) -> tuple[str, str]
     both models where they differ, left/right; "" of models that are no chains.
 
     >>> from disting import Chain
-    >>> premise_text(Chain(2).premise, Chain(2, sensor="position", damped=False).premise)
+    >>> premise_text(Chain(2).premise, Chain(2, quantity="position", damped=False).premise)
     ('true/false', 'acceleration/position')
     """
     sides = [

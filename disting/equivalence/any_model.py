@@ -111,7 +111,13 @@ def equivalents(
     inside = values_in(model) if isinstance(model, str) and notations_of(model) else {}
     others = [_model(other, damped) for other in _structures(to)]
     others = [other for other in others if other.name != given.name] or others
-    return tuple(model_equivalents(given, others, {**inside, **values}))
+    numbers = {str(name): _exact(value) for name, value in values.items()}  # SymPy's symbols too
+    return tuple(model_equivalents(given, others, {**inside, **numbers}))
+
+
+def _exact(value: Value) -> Value:
+    """A float by its decimal text, as of chains."""
+    return repr(value) if isinstance(value, float) else value
 
 
 def _is_network(source: object) -> bool:

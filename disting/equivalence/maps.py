@@ -33,7 +33,7 @@ from disting.network.notation import notations_of
 EXPANDED_UP_TO = 3  # masses of maps that are written out for a proof (10 ms; 2 s for 4)
 ONLY_CHAINS = (
     "explicit_map takes chains, as Chain or by a name such as '3:4'; for networks and other models"
-    " use equivalents or alternatives"
+    " use equivalents or alternatives; the sentence of compare(..) has the formulas that are known"
 )
 CAUER_UP_TO = 4  # masses of continued fractions; up to 3 s and 8000 characters
 CAUER = "Cauer's continued fraction"

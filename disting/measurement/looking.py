@@ -276,7 +276,7 @@ def look_at(
     response (default: as recorded); `changes` as of `look`.
 
     >>> from disting.simulation import demo
-    >>> look_at(demo(), Quantity.ACCELERATION).response.sensor.value
+    >>> look_at(demo(), Quantity.ACCELERATION).response.quantity.value
     'acceleration'
     """
     refusals, response = list[str](), None

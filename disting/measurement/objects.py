@@ -35,7 +35,7 @@ def from_arrays(
     an unknown unit, or fewer lines than a response has.
 
     >>> data = from_arrays(range(1, 9), [1 + 1j, 2 - 1j] * 4, quantity="position")
-    >>> data.omega.round(2).tolist()[:2], data.sensor.value
+    >>> data.omega.round(2).tolist()[:2], data.quantity.value
     ([6.28, 12.57], 'position')
     """
     omega = _numbers(frequency, "frequency") * factor(frequency_unit)
@@ -74,7 +74,7 @@ def series_from_frame(
 
     >>> import pandas as pd
     >>> frame = pd.DataFrame({"u": [k % 3 for k in range(30)], "y": [k % 5 for k in range(30)]})
-    >>> series_from_frame(frame, "u", "y", sampling_rate=100.0).sensor.value
+    >>> series_from_frame(frame, "u", "y", sampling_rate=100.0).quantity.value
     'position'
     """
     return time_series(_table(frame), input, output, **options)

@@ -114,7 +114,7 @@ def time_series(
     u, y = table.at(input), table.at(output)
     labels = split_header(table.headers[u]), split_header(table.headers[y])
     origin = f"{table.origin}, {table.named(y)} per {table.named(u)}"
-    shown, notes = said(quantity, labels[1].unit)
+    shown, notes = said(quantity, labels[1])
     wanted = None if reference is None else table.column(table.at(reference))
     samples = table.column(u), table.column(y) * as_sign(sign)
     uses |= {u: Use(Role.INPUT), y: Use(Role.OUTPUT)}

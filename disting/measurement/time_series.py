@@ -19,7 +19,7 @@ from disting.measurement.trend import (
 from disting.measurement.understanding import ReadColumn
 from disting.measurement.units import motion
 from disting.model.presentation import plural, summary
-from disting.quantities import Quantity, as_quantity, other_options
+from disting.quantities import Quantity, as_quantity, other_options, quantity_in
 from disting.renamed import renamed, renamed_attributes
 
 MOVING = 0.1  # share of the scatter of the speed from which on its mean is reported
@@ -209,14 +209,17 @@ class TimeSeries:
         return describe(trend, self.sampling_rate, self.quantity.order, "output", self.output)
 
 
-def said(quantity: Quantity | str | None, unit: str = "") -> tuple[Quantity, tuple[str, ...]]:
-    """Quantity of a recorded output: as asked for, or that of its unit, else position, with
-    the note that says so.
+def said(
+    quantity: Quantity | str | None, signal: Signal = UNNAMED
+) -> tuple[Quantity, tuple[str, ...]]:
+    """Quantity of a recorded output: as asked for, or that of its unit or its name, else position,
+    with the note that says so.
     """
     if quantity is not None:
         return as_quantity(quantity), ()
-    own = motion(unit)
-    return (Quantity.POSITION, (ASSUMED_POSITION,)) if own is None else (own.quantity, ())
+    moves = motion(signal.unit)
+    own = quantity_in(signal.label) if moves is None else moves.quantity
+    return (Quantity.POSITION, (ASSUMED_POSITION,)) if own is None else (own, ())
 
 
 def _check_method(

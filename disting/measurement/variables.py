@@ -131,7 +131,7 @@ def series_from_variables(
     rate, clock = _rate(arrays, sampling_rate, time, origin)
     signals = Signal(input), Signal(output)
     samples = _signal(arrays, input, origin), _signal(arrays, output, origin) * as_sign(sign)
-    shown, notes = said(quantity)
+    shown, notes = said(quantity, signals[1])
     wanted = None if reference is None else _signal(arrays, reference, origin)
     uses = {
         clock: Use(Role.CLOCK),

@@ -273,9 +273,13 @@ def test_a_record_shows_its_sampling_excitation_trend_and_distortion(tmp_path):
 
 
 def test_signals_that_are_chosen_by_their_names_are_assumed(tmp_path):
-    seen = look(record(tmp_path / "a.csv", "t,torque,angle"))
+    seen = look(record(tmp_path / "a.csv", "t,torque,y_act"), input="torque", output="y_act")
     assert [(a.what, a.option) for a in seen.assumed] == [
         ("quantity position", "--quantity velocity or --quantity acceleration"),
+        ("time in s", "--read sampling_rate=HZ"),
+    ]
+    seen = look(record(tmp_path / "a.csv", "t,torque,angle"))
+    assert [(a.what, a.option) for a in seen.assumed] == [
         ("input torque, by its name", "--read input=NAME"),
         ("output angle, by its name", "--read output=NAME"),
         ("time in s", "--read sampling_rate=HZ"),

@@ -10,6 +10,8 @@ from hypothesis import given, strategies as st
 from disting.errors import InputError
 from disting.measurement import TimeSeries, periodic
 from disting.measurement.periodic import detected_period, excited_lines, holds_transient
+from disting.measurement.table import split_header
+from disting.measurement.time_series import said
 from disting.model.chain import Quantity
 
 RATE, PERIOD = 1000.0, 500
@@ -272,3 +274,22 @@ def test_records_are_equal_by_content_and_cannot_change():
     assert pickle.loads(pickle.dumps(record)) == record
     with pytest.raises(ValueError, match="read-only"):
         record.u[0] = 1.0
+
+
+@pytest.mark.parametrize(
+    ("header", "quantity", "is_assumed"),
+    [
+        ("speed", "velocity", False),
+        ("motor_speed_1", "velocity", False),
+        ("Drehzahl", "velocity", False),
+        ("ActAngle", "position", True),  # no word of its own
+        ("acc [g]", "acceleration", False),
+        ("speed [rad]", "position", False),  # a unit says more than a name
+        ("speed or angle", "position", True),
+        ("y", "position", True),
+    ],
+)
+def test_the_quantity_of_an_output_is_that_of_its_unit_or_name(header, quantity, is_assumed):
+    found, notes = said(None, split_header(header))
+    assert (found, bool(notes)) == (quantity, is_assumed)
+    assert said("acceleration", split_header(header)) == ("acceleration", ())

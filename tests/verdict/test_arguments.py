@@ -4,6 +4,7 @@ on the command line, and the old name of an argument.
 
 import numpy as np
 import pytest
+from sympy import symbols
 
 from disting import (
     InputError,
@@ -75,6 +76,9 @@ def test_matrices_are_models_everywhere():
     (found,) = equivalents(LEAKS, values, EXCHANGE)
     assert found.verdict.right == "state space 2"
     assert alternatives(LEAKS, values, EXCHANGE).equivalents
+    of_symbols = {symbols(name): value / 2 for name, value in values.items()}
+    (half,) = equivalents(LEAKS, of_symbols, EXCHANGE)  # floats by their decimal text
+    assert half.values.equivalents
     assert gate([LEAKS, EXCHANGE]).kept[0].startswith("state space ")
     assert local_identifiability(LEAKS).rank == 3
     assert global_identifiability(LEAKS).local.rank == 3
