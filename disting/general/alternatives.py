@@ -132,6 +132,7 @@ def alternatives(
     Gives up after so many seconds. Raises InputError for missing, foreign or inexact values, a
     zero leading coefficient, and models of different inputs and outputs.
 
+    >>> from disting import Model
     >>> a = Model.from_transfer_function("1", "(s + a)*(s + b)")
     >>> [str(x) for x in alternatives(a, {"a": 1, "b": "1/2"}, a).equivalents]
     ['a = 1/2, b = 1', 'a = 1, b = 1/2']
