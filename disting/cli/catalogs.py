@@ -16,6 +16,7 @@ from disting.verdict.engine import Engine, Progress
 
 HOLDS_NOW = "all is as it is computed now, and every evidence holds"
 NOT_SEARCHED = "; {} pairs that a brief search left open were not searched again (--search-open)"
+LATE = "; what can be determined of {} networks was not found in time now, their lines not compared"
 
 
 def add_build_arguments(parser: argparse.ArgumentParser) -> None:
@@ -177,7 +178,7 @@ def verify(options: argparse.Namespace) -> int:
     with engine_for(options) as (_, pool, progress):
         for name in networks:
             family = family_of(name)
-            texts, left = verify_networks(
+            found = verify_networks(
                 family,
                 options.catalog,
                 Engine(),
@@ -185,7 +186,7 @@ def verify(options: argparse.Namespace) -> int:
                 executor=pool,
                 progress=progress,
             )
-            wrong += _report(name, texts, HOLDS_NOW + (NOT_SEARCHED.format(left) if left else ""))
+            wrong += _report(name, [*found.wrong], _notes_of(found))
         for n, damped in product(sizes, (False, True)):
             texts = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
             wrong += _report(f"{n} masses, {_kind(damped)}", texts)
@@ -199,6 +200,12 @@ def verify(options: argparse.Namespace) -> int:
             )
             wrong += _report(f"different sizes, {_kind(damped)}", texts)
     return 1 if wrong else 0
+
+
+def _notes_of(found: "FamilyCheck") -> str:
+    """Sentence on a family that holds, and on what was not computed again."""
+    notes = ((NOT_SEARCHED, found.not_searched), (LATE, found.late))
+    return HOLDS_NOW + "".join(text.format(count) for text, count in notes if count)
 
 
 def _wrong_by_second_opinion(names: list[int | str], folder: Path) -> list[str]:

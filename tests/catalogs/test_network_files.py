@@ -45,7 +45,7 @@ QUICK = ("circuits-4", "compartments-2")
     [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in sorted({*SHIPPED} - {*QUICK}))],
 )
 def test_what_is_shipped_is_what_is_computed(name):
-    assert verify_networks(family_of(name), shipped_folder(), Engine())[0] == []
+    assert verify_networks(family_of(name), shipped_folder(), Engine()).wrong == ()
 
 
 def test_a_verification_takes_over_what_a_brief_search_left_open():
@@ -272,7 +272,7 @@ def test_a_lie_is_found(tmp_path):
         path = tmp_path / f"{name_of(name)}.jsonl"
         new = [*lines[:at], json.dumps(record | change), *lines[at + 1 :]]
         path.write_text("\n".join(new) + "\n", encoding="utf-8")
-        assert verify_networks(family, tmp_path, engine)[0], change
+        assert verify_networks(family, tmp_path, engine).wrong, change
 
 
 def first_witnesses(lines):
@@ -298,7 +298,7 @@ def test_digits_of_an_equivalent_are_checked_by_themselves(digits, told, tmp_pat
     assert json.loads(lines[at]) != record
     lines[at] = json.dumps(record, separators=(",", ":"))
     path.write_text("\n".join([*lines, ""]), encoding="utf-8")
-    wrong, _ = verify_networks(family_of("compartments-2"), tmp_path, Engine())
+    wrong = verify_networks(family_of("compartments-2"), tmp_path, Engine()).wrong
     assert any("the evidence does not hold" in sentence for sentence in wrong) is told
     assert bool(wrong) is told
 
@@ -319,7 +319,7 @@ def test_evidence_that_is_false_is_found_by_itself(tmp_path):
     )
     new = [*lines[:at], json.dumps(record | {"finding": twin["finding"]}), *lines[at + 1 :]]
     path.write_text("\n".join(new) + "\n", encoding="utf-8")
-    told, _ = verify_networks(family_of(name), tmp_path, Engine())
+    told = verify_networks(family_of(name), tmp_path, Engine()).wrong
     assert any("the evidence does not hold" in sentence for sentence in told)
 
 

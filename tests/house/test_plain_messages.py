@@ -45,7 +45,7 @@ STORED = ("decide/", "evidence/", "fibres/", "questions/")
 EXEMPT = {
     # reasons that evidence may hold
     "experiments/inclusion.py", "general/identifiability.py", "general/model_inclusions.py",
-    "general/model_side.py", "verdict/result.py",
+    "general/network_view.py", "verdict/result.py",
     # a defect of the program, or no text for a user
     "equivalence/search.py", "general/fibre.py",
 }  # fmt: skip

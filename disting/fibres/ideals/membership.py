@@ -43,6 +43,8 @@ from disting.fibres.ideals.fibre_ideal import (
 from disting.fibres.ideals.system import CoefficientMap, PolynomialMap, match_maps
 from disting.model.question import Membership
 
+OUT_OF_TIME = "out of time"  # begins the reason why nothing was found
+
 # draws for one solution modulo the prime: each square root that it needs halves the chance that
 # there is one
 SPARE = 32
@@ -215,7 +217,7 @@ def _race(question: _Question, runs: list[_Run]) -> tuple[_Run, Basis]:
     why = "no direction"
     while runs:
         if process_time() > question.deadline:
-            raise GivenUp(f"out of time ({question.limits.seconds:g} s)")
+            raise GivenUp(f"{OUT_OF_TIME} ({question.limits.seconds:g} s)")
         run = min(runs, key=lambda r: r.work)
         try:
             step = next(run.steps)

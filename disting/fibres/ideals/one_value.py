@@ -46,7 +46,7 @@ from disting.algebra.groebner.modular import Sparse
 from disting.errors import ContradictionError
 from disting.fibres.ideals.bounds import LEAST, safety_of_one_value, safety_of_other_values
 from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
-from disting.fibres.ideals.membership import NO_BOUND, GivenUp, Limits
+from disting.fibres.ideals.membership import NO_BOUND, OUT_OF_TIME, GivenUp, Limits
 from disting.fibres.ideals.system import PolynomialMap
 
 LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
@@ -206,7 +206,7 @@ def _basis(generators: Iterable[Sparse], size: int, modulus: int, deadline: floa
             if step > LIMITS.entries:
                 raise GivenUp(f"too large: a matrix of {step} entries")
             if process_time() > deadline:
-                raise GivenUp(f"out of time ({LIMITS.seconds:g} s)")
+                raise GivenUp(f"{OUT_OF_TIME} ({LIMITS.seconds:g} s)")
     except TooLarge as error:
         raise GivenUp(f"too large: {error}") from None
     raise AssertionError("a Gröbner basis ends with a basis")
