@@ -638,9 +638,10 @@ def forms(pair, e):
 def ranks(pair, e):
     """The same coefficients have different numbers of independent values."""
     a, b = sides(pair)
-    found, every = (a.rank(e["rows"]), b.rank(e["rows"])), (a.full_rank, b.full_rank)
-    whole = e["rows"][:1] == ["G0"] or a.varying | b.varying <= set(e["rows"])
-    if e["all_rows"] and (found != every or not whole):
+    rows, every = set(e["rows"]), (a.full_rank, b.full_rank)
+    found = every if e["all_rows"] else (a.rank(e["rows"]), b.rank(e["rows"]))
+    whole = e["rows"][:1] == ["G0"] or a.varying <= rows or b.varying <= rows
+    if e["all_rows"] and not whole:  # the rows that are named are those of one of the two
         return result(False, "not all coefficients")
     return result(found == (e["left"], e["right"]) and found[0] != found[1], "ranks computed again")
 

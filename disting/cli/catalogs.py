@@ -4,6 +4,7 @@ import argparse
 from concurrent.futures import Executor
 from itertools import product
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from disting.catalogs import Catalog, catalog
 from disting.catalogs.dampers import DamperFamily
@@ -12,6 +13,9 @@ from disting.catalogs.network_files import SHIPPED, build_networks
 from disting.cli.arguments import add_masses, add_out, add_work, size_or_family
 from disting.cli.workers import announce, engine_for, pairs_by_size, pairs_work
 from disting.network.families import family_of
+
+if TYPE_CHECKING:
+    from disting.catalogs.build import FamilyCheck
 from disting.verdict.engine import Engine, Progress
 
 HOLDS_NOW = "all is as it is computed now, and every evidence holds"

@@ -235,7 +235,10 @@ def test_the_legend_fits_a_terminal(domain):
 
 def test_a_whole_family_says_that_positive_parameters_are_not_asked(capsys):
     assert main(["dampers", "2", "--no-cache", "--undamped"]) == 0
-    assert "positive parameters are not asked here: 'disting compare'" in capsys.readouterr().out
+    assert (
+        "positive parameters are not examined here: use 'disting compare'"
+        in capsys.readouterr().out
+    )
     assert main(["dampers", "2", "--domain", "positive", "--undamped"]) == 2
     assert "over complex parameters" in capsys.readouterr().err
 

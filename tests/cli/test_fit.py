@@ -225,7 +225,7 @@ def test_time_series_are_fitted_like_their_response():
     [
         (("fit",), "a file with measured data is needed, such as disting fit bench.csv; --demo"),
         (("fit", "missing.csv"), "there is no file missing.csv"),
-        (("fit", "--demo", "x.csv"), "brings its own data"),
+        (("fit", "--demo", "x.csv"), "has its own data"),
         (("fit", "--demo", "--masses", "1-"), "written like 3, 1-4 or 1,3"),
         (("fit", "--demo", "--thresholds", "1,2"), "thresholds are written like 30,1000,20"),
         (("fit", "--demo", "--band", "9..8"), "a range is written like 11..250"),

@@ -29,4 +29,4 @@ def test_chains_under_experiments_over_a_domain():
 
 def test_another_domain_is_refused():
     done = called("models", SIGNED, "--domain", "rational")
-    assert done.returncode == 2 and "none of complex, real, positive" in done.stderr
+    assert done.returncode == 2 and "not one of complex, real, positive" in done.stderr

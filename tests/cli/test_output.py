@@ -142,6 +142,4 @@ def test_a_full_device_is_named(tmp_path: Path) -> None:
 def test_a_cache_that_is_none_of_the_three_choices_is_refused() -> None:
     done = called("verdicts", "2", cache="no")
     assert (done.returncode, done.stdout) == (2, "")
-    assert (
-        "off, :memory:, or a file in a folder that is there, such as cache.sqlite3" in done.stderr
-    )
+    assert "off, :memory:, or a file in an existing folder, such as cache.sqlite3" in done.stderr

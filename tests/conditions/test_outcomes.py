@@ -195,13 +195,13 @@ def test_condition_5_is_asked_after_3_and_4_only(other):
 def test_condition_5_is_abandoned_where_a_matroid_is_too_large():
     full, limited = handmade(GENERAL), handmade(GENERAL, limit=3)
     assert limited.matroid == NoMatroid(
-        "more than 3 sets of coefficients to look at: 4 rows of rank 3"
+        "more than 3 sets of coefficients to examine: 4 rows of rank 3"
     )
     for pair in ((full, limited), (limited, full), (limited, limited)):
         finding = condition_5(*pair)
         assert (finding.outcome, finding.note) == (
             ABANDONED,
-            "more than 3 sets of coefficients to look at: 4 rows of rank 3",
+            "more than 3 sets of coefficients to examine: 4 rows of rank 3",
         )
 
 
