@@ -314,6 +314,8 @@ def listed(text):
     for item in re.split(r"[,;]", text):
         name, *ends = item.split()
         ends = tuple(map(int, ends))
+        if name[0] in "av":
+            raise NotImplementedError("compartments as a list")
         if name in ports:
             ports[name] = ends
         else:
@@ -1554,10 +1556,14 @@ def verdict_file(table, name, told):
         a, b = map(verdict_model, told["models"])
         if any(told.get(k) or told["query"].get(k) for k in ("experiments", "also", "places")):
             raise ValueError("several experiments")
+        if any(note.startswith("compared as the chain") for note in told["notes"]):
+            raise ValueError("a chain in other names")
+        if any(e.kind == "P" for m in (a, b) for e in m.elements):
+            raise ValueError("exponents of constant phase elements")
     except UNREADABLE as why:
         found = searched(f"not known here: {unreadable(why)}"[:90])
         return table.add("verdict", "models", "", found, name)
-    half = any(e.kind in "WP" for m in (a, b) for e in m.elements)
+    half = any(e.kind == "W" for m in (a, b) for e in m.elements)
     pair = pair_of(a, b, 2 if half else 1)
     for place, part in (("verdict", told), ("over complex", told.get("over_complex") or {})):
         of_verdict(table, "verdict", place, part, pair, name)

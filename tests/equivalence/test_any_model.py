@@ -46,7 +46,7 @@ def test_models_with_formulas_and_lists_of_them():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda: equivalents(CELL, VALUES, OTHER, also=["sensor=2"]), "experiments are on chains"),
+        (lambda: equivalents(CELL, VALUES, OTHER, also=["sensor=2"]), "also is for chains"),
         (lambda: equivalents(CELL, VALUES, 3), "a model is a chain.* not 3"),
         (lambda: equivalents(CELL, {"R0": 1}, OTHER), "no value for C1, R1"),
         (lambda: equivalents(CELL, None, OTHER), "values are a dict"),

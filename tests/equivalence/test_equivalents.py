@@ -197,7 +197,7 @@ def test_bad_references(model, to):
 
 
 def test_sensors_have_to_agree():
-    with pytest.raises(InputError, match="sensors differ"):
+    with pytest.raises(InputError, match="quantities differ"):
         equivalents(
             Chain(2, damped=False),
             {"m1": 1, "m2": 1, "k12": 1},

@@ -118,7 +118,7 @@ def test_the_domain_is_that_of_the_query():
     [
         ([], "no models"),
         (["3:1", "3:1"], "two models are called 3:1"),
-        ([3], "a model is a chain"),
+        ([3], "a model is a Model"),
         (["no such"], "no such"),
         (
             ["3:1", MatrixModel.from_transfer_functions([["1/(s+a)", "b"]])],

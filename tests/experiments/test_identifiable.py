@@ -168,10 +168,10 @@ def test_it_is_kept_and_read_back(tmp_path):
 @pytest.mark.parametrize(
     ("model", "experiments", "said"),
     [
-        (3, [], "asked of a chain"),
+        (3, [], "identifiability takes a chain"),
         (Family(3, damped=False)[1], [Experiment(sensor=4)], "no mass 4"),
         (Family(3, damped=False)[1], ["sensor=2"], "such as Experiment"),
-        (Family(3, damped=False)[1], [(Experiment(), Experiment())], "of one model"),
+        (Family(3, damped=False)[1], [(Experiment(), Experiment())], "on one model"),
         (Family(2, damped=False)[1], [Experiment(locked=(1, 2))], "all masses are locked"),
     ],
 )

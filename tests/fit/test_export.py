@@ -124,7 +124,7 @@ def test_json_reads_back_bit_equal(chain, tmp_path):
         ("{", "holds no JSON; name a file of .disting fit --json."),
         ("[]", "holds no selected model"),
         ('{"selected": null}', "holds no selected model"),
-        ('{"selected": {"n_masses": 2}}', "no fitted model"),
+        ('{"selected": {"n_masses": 2}}', "not a fitted model"),
         (None, "cannot be read .*; name a file of .disting fit --json."),
     ],
 )

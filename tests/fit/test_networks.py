@@ -116,7 +116,7 @@ def test_two_sensors_are_fitted_together(tmp_path):
     ("texts", "count", "said"),
     [
         (["1~2; F1; S1 S2"], 1, "give as many measured responses, not 1"),
-        (["1~2; F1; S1 S2", "1~2; F1; S1"], 2, "fit them apart"),
+        (["1~2; F1; S1 S2", "1~2; F1; S1"], 2, "fit them separately"),
         ([], 1, "name at least one network"),
     ],
 )
@@ -298,10 +298,10 @@ def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
     ("words", "said"),
     [
         (["--models", "3:1"], "is not a network"),
-        (["--models", "R1-C1", "--models", "1=2; F1; S1"], "fit them apart"),
+        (["--models", "R1-C1", "--models", "1=2; F1; S1"], "fit them separately"),
         (
             ["--models", "R1-C1", "--masses", "3"],
-            "--masses adds chains: these compete with machines",
+            "--masses adds chains; it is supported with machines",
         ),
         (["--models", "R1-C1", "--models", "R1-C1"], "named twice"),
         (["--models", "cells-9"], "families of networks are"),

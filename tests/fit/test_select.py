@@ -98,7 +98,7 @@ def test_the_json_reads_back_bit_equal(selection):
         plain["candidates"][0]
     )
     assert plain["alternatives"] == []
-    with pytest.raises(InputError, match="no fitted model"):
+    with pytest.raises(InputError, match="not a fitted model"):
         model_from_dict({"n_masses": 2})
 
 
@@ -155,7 +155,7 @@ def test_a_profile_rises_on_both_sides(selection):
     # linear problem.
     expected = 9 * selection.selected.j_train / (2 * OMEGA.size - 6)
     assert found.costs[-1] - found.costs[middle] == pytest.approx(expected, rel=0.5)
-    with pytest.raises(InputError, match="m9 is no fitted parameter"):
+    with pytest.raises(InputError, match="m9 is not a fitted parameter"):
         profile(selection.selected, selection.task, "m9")
 
 

@@ -79,7 +79,7 @@ def test_verdicts_that_contradict_a_class_are_refused():
         found = decided(store, View.EXACT)
     found.steps.pop((0, 3))  # without its finding a decided pair counts as distinguishable
     assert isinstance(found.subjects[0].view, NetworkView)
-    with pytest.raises(ContradictionError, match="two leaks and sum are one group"):
+    with pytest.raises(ContradictionError, match="two leaks and sum are in one group"):
         found.classes()
 
 

@@ -139,7 +139,7 @@ def test_a_file_has_initial_states(tmp_path):
         ({"A": [["-k"]], "C": [1]}, '"B" is missing'),
         ({"A": [["-k"]], "C": [1], "x0": [1, 2]}, "x0 is a list of the 1 initial values"),
         ({"A": [["-k"]], "C": [1], "x0": "c"}, "x0 is a list"),
-        ({"A": [["-k"]], "C": [1], "x0": ["c"], "known": ["d"]}, "'d' is known, but no parameter"),
+        ({"A": [["-k"]], "C": [1], "x0": ["c"], "known": ["d"]}, "'d' is not a parameter"),
         ({"A": [["-k"]], "C": [1], "x0": ["c"], "known": "c"}, "is a list of names"),
         ({"A": [["-k"]], "C": [1], "x0": [0]}, "the transfer function is zero"),
         ({"flows": [[1, 0]], "output": 1, "x0": {"2": "c"}}, "compartment '2', which none"),

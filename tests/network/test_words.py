@@ -46,7 +46,7 @@ def test_of_infinitely_many_values_some_are_told_as_such():
     told = said("equivalents 'R0-p(R1,C1)' --to 'R0-p(R1,C1)-R2' --set R0=1,R1=2,C1=1/2")
     assert told.endswith("and infinitely many more\n")
     told = said("equivalents 'R0-p(R1,C1)' --to 'p(R0,R1-C1)' --set R0=1,R1=2,C1=1/2")
-    assert told.endswith("  C1 = 2/9, R0 = 3, R1 = 3/2\n") and "of 1 other network 1" in told
+    assert told.endswith("  C1 = 2/9, R0 = 3, R1 = 3/2\n") and "1 of 1 other network" in told
 
 
 @pytest.mark.full

@@ -255,7 +255,7 @@ def test_few_starts_that_agree_make_the_answer_doubtful(planned):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda: fitted_rival(MODEL, VALUES, MODEL, OMEGA, alike(0.1)), "no rival of itself"),
+        (lambda: fitted_rival(MODEL, VALUES, MODEL, OMEGA, alike(0.1)), "not a rival of itself"),
         (lambda: fitted_rival(MODEL, VALUES, RIVAL, OMEGA, alike(0.0)), "noise of a line lies"),
     ],
 )

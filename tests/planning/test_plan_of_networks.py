@@ -159,14 +159,14 @@ def test_an_undamped_machine_is_found_back():
 def test_a_sensor_that_shows_nothing_is_named():
     models = [network_of(f"1=#, 2=#{more}; F1 F2; S1 S2") for more in ("", ", 1=2")]
     values = dict.fromkeys(models[0].parameters, 1.0)
-    with pytest.raises(InputError, match="shows nothing of an input"):
+    with pytest.raises(InputError, match="does not affect one of the sensors"):
         plan(models[0], values, models[1], LINES, np.full(40, 0.1))
 
 
 @pytest.mark.parametrize(
     ("rival", "words"),
     [
-        (MODEL, "no rival of itself"),
+        (MODEL, "not a rival of itself"),
         (Chain(2), "write the chain as a network too"),
         (replace(RIVAL, inputs=RIVAL.inputs * 2), "has 1 x 2"),
     ],

@@ -325,7 +325,7 @@ def test_networks_of_several_ports_have_pages(tmp_path: Path) -> None:
         (["R1-C1", "1~2; F1; S1 S2"], "Ports", "outputs"),
         (["R1-C1", "p(R1,C1)"], "\u00e4", "no letter"),
         (7, "Seven", "a list of models"),
-        (["R1-C1", 3], "Three", "a model is a chain"),
+        (["R1-C1", 3], "Three", "a model is a Model"),
     ],
 )
 def test_what_is_no_family_is_refused(

@@ -198,7 +198,7 @@ def test_the_command_writes_pictures_and_says_what_it_cannot(tmp_path: File) -> 
     assert done.returncode == 0 and ElementTree.fromstring(done.stdout) is not None
     (tmp_path / "m.json").write_text('{"models": [{"name": "lag", "num": ["k"], "den": ["T", 1]}]}')
     for arguments, cause in (
-        (("3:1",), "say where the drawing goes"),
+        (("3:1",), "give a file for the drawing"),
         (("3:1", "--png", "-"), "a picture as PNG goes to a file"),
         (("R0-p(R1", "--svg", "-"), "ends too early"),
         ((f"{tmp_path}/m.json:lag", "--svg", "-"), "is a transfer function or a state space"),
