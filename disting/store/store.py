@@ -44,6 +44,7 @@ PACKAGE = Path(__file__).parents[1]
 LIBRARIES = ("numpy", "scipy", "python-flint")  # whose numbers may change with a version
 IMPORT = re.compile(rf"^[ ]*from ({PACKAGE.name}[\w.]*) import (\([^)]*\)|.*)", re.MULTILINE)
 NAME = re.compile(r"\w+")
+TEXT = re.compile(r'"((?:\w+\.)+\w+)(?::\w+)?"')  # a module, or a function in it
 
 
 @cache
@@ -81,11 +82,13 @@ def modules_of(module: str) -> tuple[str, ...]:
 
 def _list_imports(source: str) -> Iterator[str]:
     """Names that may be modules: what is imported from, and with what is imported from it (a
-    name may be a module).
+    name may be a module); and texts such as "decide.same.exact:by_theorem", by which tables name
+    functions.
     """
     for origin, names in IMPORT.findall(source):
         yield origin
         yield from (f"{origin}.{name}" for name in NAME.findall(names))
+    yield from (f"disting.{name}" for name in TEXT.findall(source))
 
 
 @cache

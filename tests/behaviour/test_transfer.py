@@ -214,7 +214,7 @@ def test_a_chain_without_gap_is_the_oracle_s(damped):
     plain = SimpleNamespace(
         **{
             f: getattr(left, f)
-            for f in ("act_minus", "act_plus", "meas_minus", "meas_plus", "sensor")
+            for f in ("act_minus", "act_plus", "meas_minus", "meas_plus", "quantity")
         }
     )
     plain.n_masses, plain.gap, plain.damped, plain.ground_dampers, plain.lag = (

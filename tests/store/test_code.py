@@ -70,6 +70,10 @@ def test_an_estimate_depends_on_the_chain_model_and_a_verdict_on_the_conditions(
         "disting.general.parts",
         "disting.network.outflows",
         "disting.decide.identifiability.analysis",
+        "disting.decide.same.exact",  # named as text
+        "disting.decide.positive.shares",
+        "disting.experiments.exact",
+        "disting.general.forms",
     } <= set(modules_of("disting.verdict.engine"))
     assert not any(
         name.startswith(("disting.report", "disting.cli"))

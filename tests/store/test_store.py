@@ -145,7 +145,7 @@ def test_the_variable_is_refused_where_it_names_no_file(
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder").mkdir()
     monkeypatch.setenv("DISTING_CACHE", text)
-    with pytest.raises(InputError, match="off, :memory:, or a file in a folder that is there"):
+    with pytest.raises(InputError, match="off, :memory:, or a file in an existing folder"):
         Store.open()
     assert [p.name for p in tmp_path.rglob("*")] == ["folder"]
 
