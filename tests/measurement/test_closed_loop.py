@@ -172,7 +172,7 @@ def test_too_few_lines_say_why():
             {},
             r"1 excited line in a period of 20 samples: too few.*--read segment=SAMPLES",
         ),
-        (TimeSeries(u, y, RATE), {"least_coherence": 0.5}, "belongs to Welch"),
+        (TimeSeries(u, y, RATE), {"least_coherence": 0.5}, "least_coherence is for Welch"),
     ):
         with pytest.raises(InputError, match=words):
             series.response(**options)

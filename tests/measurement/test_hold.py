@@ -190,4 +190,4 @@ def test_the_command_line_takes_a_hold_and_refuses_it_for_networks(tmp_path, cap
     shown = capsys.readouterr().out
     assert "input held for 0.00025 s" in shown and "2:1+b1+delay explains" in shown
     assert main(["fit", str(file), "--models", "1~2; F1; S1", "--hold", "250e-6"]) == 2
-    assert "networks are fitted without a hold" in capsys.readouterr().err
+    assert "--hold is not supported for networks" in capsys.readouterr().err
