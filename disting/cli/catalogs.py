@@ -220,7 +220,10 @@ def _wrong_by_second_opinion(names: list[int | str], folder: Path) -> list[str]:
     for name in names:
         pattern = f"[!n]*-{name}-*damped" if isinstance(name, int) else f"networks-{name}"
         of_next = folder.glob(f"next-*{name}-*damped.jsonl") if isinstance(name, int) else ()
-        opinion = opinion_on_files(sorted([*folder.glob(f"{pattern}.jsonl"), *of_next]))
+        files = sorted([*folder.glob(f"{pattern}.jsonl"), *of_next])
+        if not files:
+            continue  # the rebuild says which is missing
+        opinion = opinion_on_files(files)
         wrong += _report(f"{name}, by check.py", [*opinion.wrong], opinion.counts)
     return wrong
 

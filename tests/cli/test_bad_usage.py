@@ -31,7 +31,7 @@ WORDS = [
     (("models", "3.5"), "at least 1"),
     (("models", "26"), "at most 25"),
     (("models", "9" * 5000), "a whole number"),
-    (("models", "3", "--also", "sensor=3/2"), "write sensor=3 alone"),
+    (("models", "3", "--also", "sensor=3/2"), "write only sensor=3"),
     (("models", "3", "--also", "sensor=4"), "no mass 4"),
     (("models", "3", "--also", "sensor"), "an experiment is written"),
     (("models", "1", "--also", "lock=1"), "leave one that moves"),
