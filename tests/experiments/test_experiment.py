@@ -59,7 +59,11 @@ def test_what_is_no_experiment_is_refused(given, said):
 
 @pytest.mark.parametrize(
     ("kind", "size", "said"),
-    [(LOCK, 2, "has no size"), (SENSOR, None, "not a change of the machine"), (BRAKE, None, "None")],
+    [
+        (LOCK, 2, "has no size"),
+        (SENSOR, None, "not a change of the machine"),
+        (BRAKE, None, "None"),
+    ],
 )
 def test_what_is_no_change_is_refused(kind, size, said):
     with pytest.raises(InputError, match=said):
