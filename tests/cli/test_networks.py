@@ -200,7 +200,7 @@ def test_what_to_measure_next_on_what_a_fit_of_networks_left(fit_file):
     path, _ = fit_file
     done = called("next", path)
     assert done.returncode == 0, done.stderr
-    assert "2 structures that the present measurement cannot tell apart" in done.stdout
+    assert "2 structures that the present measurement cannot distinguish" in done.stdout
     assert (
         "not a rival: R0-p(R1,C1)-p(R2,C2) contains R0-p(R1,C1) or one of its rivals" in done.stdout
     )
