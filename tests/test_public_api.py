@@ -175,7 +175,7 @@ def test_a_verdict_is_looked_up_without_what_decides_it():
 
 
 MOST_OF_A_FIT = 213  # modules of the package
-MOST_LINES_OF_A_FIT = 40_000
+MOST_LINES_OF_A_FIT = 41_500
 NOT_FOR_A_FIT = (
     "planning", "fit.networks", "general", "experiments.measured_view", "report.page",
     "report.drawing", "catalogs.catalog", "measurement.matlab", "measurement.uff", "simulation.bench",

@@ -28,7 +28,7 @@ def same(left: AnySide, right: AnySide) -> Finding:
     told: Finding | None = found_at_once(table.at_once, left, right)
     if told is not None:
         return told
-    return _grounded(table, left, right, left.answerer(*_same_question(left, right), left.settings))
+    return _ground(table, left, right, left.answerer(*_same_question(left, right), left.settings))
 
 
 def same_again(left: AnySide, right: AnySide, evidence: Evidence) -> Finding | None:
@@ -41,7 +41,7 @@ def same_again(left: AnySide, right: AnySide, evidence: Evidence) -> Finding | N
         return told if type(told.evidence) is type(evidence) else None
     evidence = evidence.turned if _is_turned(left, right) else evidence
     again = recheck(evidence, table.rows, *left.view.pair(right.view), left.settings)
-    return None if again is None else _grounded(table, left, right, again)
+    return None if again is None else _ground(table, left, right, again)
 
 
 def confirms(left: AnySide, right: AnySide, evidence: Evidence, representation: str) -> bool:
@@ -158,7 +158,7 @@ def _is_turned(left: AnySide, right: AnySide) -> bool:
     return bool(left.view.pair(right.view)[0] != left.view.form)
 
 
-def _grounded(table: Table, left: AnySide, right: AnySide, found: Finding) -> Finding:
+def _ground(table: Table, left: AnySide, right: AnySide, found: Finding) -> Finding:
     """Return the finding on the pair in its order, as sure as the ranks that are seen equal."""
     found = found.turned if _is_turned(left, right) else found
     found = resting_on_ranks(found, left.transfer_profile, right.transfer_profile)

@@ -177,7 +177,7 @@ def gate(
     """
     engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
     listed = of_type(models, Iterable, "the models are a list of models")
-    made = [_numbered(model_of(m), m, i) for i, m in enumerate(listed, 1)]
+    made = [_number(model_of(m), m, i) for i, m in enumerate(listed, 1)]
     again = [m.name for i, m in enumerate(made) if m.name in {x.name for x in made[:i]}]
     if again or not made:
         raise InputError(
@@ -203,7 +203,7 @@ def gate(
     )
 
 
-def _numbered(model: AnyModel, given: Given, number: int) -> AnyModel:
+def _number(model: AnyModel, given: Given, number: int) -> AnyModel:
     """A state space that is given as matrices with its number in the list; others as they are."""
     return replace(model, name=f"{model.name} {number}") if isinstance(given, tuple) else model
 

@@ -43,7 +43,7 @@ def _read(text: PointText) -> Values:
 
 
 def is_plain(text: str) -> bool:
-    """Whether a number is spelled as it is `written`."""
+    """Return True if a number is spelled as it is `written`."""
     try:
         number = float(text)
     except ValueError:
@@ -52,7 +52,7 @@ def is_plain(text: str) -> bool:
 
 
 def agree(model: AnyModel, values: Values, other: AnyModel, others: Values) -> bool:
-    """Whether both have nearly the same coefficients at these values."""
+    """Return True if both have nearly the same coefficients at these values."""
     pairs = list(zip(model.entries, other.entries, strict=True))
     try:
         sides = [(_ratios(a, values), _ratios(b, others)) for a, b in pairs]

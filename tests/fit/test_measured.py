@@ -93,7 +93,7 @@ def test_the_command_asks_for_it_and_its_file_leads_nowhere(tmp_path):
     for words in (("next", file), ("plan", file), ("fit", path, "--left", file)):
         refused = called(*words)
         assert refused.returncode == 2 and asked in refused.stderr
-    with pytest.raises(InputError, match="do not settle which quantity"):
+    with pytest.raises(InputError, match="do not determine which quantity"):
         read_model(file)
     named = called("fit", path, "--masses", "2", "--quantity", "speed")
     assert named.returncode == 0 and "explains this data" in named.stdout

@@ -199,7 +199,7 @@ def test_the_command_writes_the_page_and_refuses_what_it_cannot(tmp_path: Path) 
     assert (out / "list-vessels.html").read_bytes() == first
     for arguments, cause in (
         ((one, two), "two files would have one page"),
-        ((one, "--damped"), "--damped belongs to numbered chains"),
+        ((one, "--damped"), "--damped is supported for numbered chains only"),
         ((tmp_path / "no.json",), "cannot be read"),
         ((), "number of masses, or a file of models"),
     ):

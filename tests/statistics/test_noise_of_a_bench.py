@@ -401,6 +401,8 @@ def test_a_narrow_resonance_in_short_segments_is_no_further_mass():
     data = measured(machine, 2)
     found = select(data, [true, replace(true, n_masses=3)])
     assert found.selected.chain == true and found.explanation.chi2 < 1.2
-    assert found.test is found.task.cost.measured and found.test.reading.endswith("and models likewise")
+    assert found.test is found.task.cost.measured and found.test.reading.endswith(
+        "and models likewise"
+    )
     low, high = found.members[0].intervals["k12"]
     assert low < machine.values["k12"] < high < 1.1 * low
