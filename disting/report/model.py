@@ -142,6 +142,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         for other, v in verdicts.items()
         if relations[other] is not Relation.DISTINGUISHABLE
     ]
+    apart = [other for other, r in relations.items() if r is Relation.DISTINGUISHABLE]
     shown = [number, *(t.model.row.number for t in twins)]
     own_advice = advice(found_for(catalog), number)
     return render(
@@ -164,13 +165,7 @@ def model_page(catalog: Catalog, number: int) -> str:
         transfer=transfer_function_parts(model.row.chain),
         free=catalog.record(number)["free"],
         basis=combinations(model.row.identifiability.basis),
-        told_apart=reasons_apart(
-            {
-                other: v
-                for other, v in verdicts.items()
-                if relations[other] is Relation.DISTINGUISHABLE
-            }
-        ),
+        told_apart=reasons_apart({other: verdicts[other] for other in apart}),
         limits=limits(number, verdicts),
         advice=own_advice,
         next_name=page_of(catalog),

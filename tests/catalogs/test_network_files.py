@@ -58,6 +58,20 @@ def test_a_verification_takes_over_what_a_brief_search_left_open():
     assert recall_open(replace(family, in_brief=False), records, Engine()) == 0
 
 
+@pytest.mark.parametrize(
+    ("reason", "late"), [("out of time (20 s)", 1), ("too large: a matrix of 9 entries", 0)]
+)
+def test_what_is_not_found_in_time_now_is_no_fault_of_the_file(reason, late):
+    """Any other difference of the same line is one."""
+    family, engine = family_of("compartments-2"), Engine()
+    recall(family.name, engine)
+    model = (without_names(engine.general_subjects(family.networks)[0].subject),)
+    known = engine.answer(PARAMETERS, model, engine.settings)
+    engine.remember(PARAMETERS, model, replace(known, reason=reason))
+    found = verify_networks(family, shipped_folder(), engine)
+    assert (found.late, len(found.wrong)) == (late, 1 - late)
+
+
 @pytest.mark.full
 def test_a_theorem_stays_beside_what_a_search_found():
     """What a renaming proves over complex values it proves over positive ones: so says a comparison

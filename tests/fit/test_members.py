@@ -117,7 +117,8 @@ def test_the_selected_one_comes_first_with_what_behaves_the_same(selection):
 
 @pytest.mark.full
 def test_the_third_line_says_that_the_machine_may_as_well_be_another(selection):
-    assert "give identical responses here" in first_lines(selection)[2]
+    third = first_lines(selection)[2]
+    assert "3:1 and 3:11" in third and "give identical responses here" in third
     assert commands(selection)[-1].startswith(
         'disting equivalents 3:1 --damped --to "3+b*" --set m1='
     )
