@@ -82,7 +82,7 @@ def modules_of(module: str) -> tuple[str, ...]:
 
 def _list_imports(source: str) -> Iterator[str]:
     """Names that may be modules: what is imported from, and with what is imported from it (a
-    name may be a module); and texts such as "decide.same.exact:by_theorem", by which tables name
+    name may be a module); and texts "folder.module:function", by which tables name
     functions.
     """
     for origin, names in IMPORT.findall(source):

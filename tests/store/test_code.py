@@ -3,6 +3,7 @@ changes with any of it.
 """
 
 import ast
+import re
 import shutil
 import subprocess
 import sys
@@ -29,7 +30,9 @@ def exists(name):
 
 
 def imported(name):
-    """Slow and obviously right: modules named in any import statement of a module's syntax tree."""
+    """Slow and obviously right: modules named in any import statement of a module's syntax tree, or
+    by a text alone, with or without a function, as tables name them.
+    """
     for node in ast.walk(ast.parse(source(name))):
         if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("disting"):
             assert not node.level
@@ -39,6 +42,10 @@ def imported(name):
             yield from (each for each in names if exists(each))
         elif isinstance(node, ast.Import):
             yield from (a.name for a in node.names if a.name.startswith("disting."))
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            module = f"disting.{node.value.partition(':')[0]}"
+            if re.fullmatch(r"(\w+\.)+\w+", module) and "." in node.value and exists(module):
+                yield module
 
 
 def closure(name):
