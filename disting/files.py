@@ -30,7 +30,7 @@ LARGEST = 50_000_000  # bytes of a file, unless its reader takes more
 PART = 1 << 20  # bytes that are read at once of what does not tell its size
 PATIENCE = 2.0  # seconds after which a pipe that says nothing is spoken of
 DEFINITION = re.compile(r'"#/\$defs/(\w+)"')  # in a JSON Schema
-__version__ = "0.3.0"  # of the package; files that it writes name it
+__version__ = "0.4.0"  # of the package; files that it writes name it
 
 
 def shipped_folder() -> Path:

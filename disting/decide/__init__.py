@@ -162,7 +162,7 @@ SAME_CHAINS = Table(
             decide=f"{_SAME}:refuse_unequal",
         ),
     ),
-    note="But for the theorems and the dead time, chains of one size and sensor quantity only.",
+    note="Except for the theorems and the dead time, chains of one size and sensor quantity only.",
     question=f"{_SAME}:EXACTLY",
     confirms=f"{_CHECK}:of_sides",
 )
@@ -303,7 +303,7 @@ SHARE_CHAINS = Table(
             check=f"{_SHARED}:check_points",
         ),
     ),
-    note="But for the first row, chains without ground dampers and lag only.",
+    note="Except for the first row, chains without ground dampers and lag only.",
     question=f"{_REAL}:POSITIVELY",
     confirms=f"{_SHARED}:proves",
     is_stated=f"{_INSIDE}:are_of_one_size",
@@ -345,7 +345,7 @@ SAME_MEASURED_QUICKLY = Table(
     Asked.SAME,
     Of.MEASURED,
     (
-        Decider("rows that give the same", Cost.RANKS, f"{_UNDER}:by_rows"),
+        Decider("rows with the same behaviour", Cost.RANKS, f"{_UNDER}:by_rows"),
         Decider("lists at points that all places share", Cost.FIBRE, f"{_UNDER}:by_shared_list"),
         Decider("ranks of numerators, denominators and parts", Cost.RANKS, f"{_UNDER}:by_parts"),
         Decider("ideals within small limits", Cost.IDEALS, f"{_UNDER}:by_small_ideals"),
@@ -462,7 +462,7 @@ MAPS = Decider(
     yields=(Explicit,),
     check="general.formulas:is_explicit",
 )
-LEFT_OPEN = Decider("what was seen", Cost.CLOSED_FORM, f"{_VALUES}:left_open")
+LEFT_OPEN = Decider("what the search found", Cost.CLOSED_FORM, f"{_VALUES}:left_open")
 
 
 def _of_points(name: str, decide: str) -> Decider:
@@ -510,14 +510,14 @@ VALUES_POSITIVE = Table(
         _of_inequalities("inequalities", f"{_VALUES}:by_all_inequalities"),
         LEFT_OPEN,
     ),
-    note="Two models as they are, or networks that stand for them in the next table.",
+    note="Two models as they are, or the networks that represent them in the next table.",
 )
 POSITIVE_NETWORKS = Table(
     Asked.POSITIVE,
     Of.NETWORKS,
     (
         Decider(
-            name="maps and points of the simplest networks that give the same",
+            name="maps and points of the simplest networks with the same behaviour",
             cost=Cost.SEARCH,
             decide=f"{_FORMS}:by_values",
             yields=(Replacement,),

@@ -195,9 +195,7 @@ def _others(the_fibre: Fibre, exact: list[Image]) -> list[Solution]:
     rest = _unlike(the_fibre.solutions, exact)
     lacking = len(the_fibre.solutions) - len(rest) < len(exact)
     if lacking and _is_complete(the_fibre):
-        raise ContradictionError(
-            "a list of equivalents that is said to be complete lacks one that a theorem gives"
-        )
+        raise ContradictionError("a complete list of equivalents lacks one that a theorem gives")
     return rest
 
 

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from disting.evidence.kind import SampledPair
 
 TRANSCENDENTAL = (
-    "a factor exp(−Td s) with Td other than 0 is no rational function, so it cannot be made up for"
+    "a factor exp(−Td s) with Td other than 0 is no rational function, so no other element can"
+    " compensate for it"
 )
 _APART = Claim(Carrier.CONDITION, Relation.DISTINGUISHABLE)
 _SAME = Claim(Carrier.CONDITION, Relation.INDISTINGUISHABLE, COMPLEX)

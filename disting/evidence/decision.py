@@ -9,40 +9,42 @@ from disting.model.question import Domain, Relation
 
 THEOREMS = {
     "Foster and Cauer": (
-        "{left} and {right} are driving-point functions of two kinds of elements (or of parts like"
-        " them) and of one order: by Foster's and Cauer's theorems each gives all of them with"
-        " positive elements"
+        "{left} and {right} are driving-point functions of the same order with two kinds of"
+        " elements (or with parts like them): by Foster's and Cauer's theorems each realises all"
+        " such functions with positive elements"
     ),
-    "symmetry": "{left} and {right} are one model after exchanging ports or mirroring a row",
+    "symmetry": (
+        "{left} and {right} become the same model when ports are exchanged or a row is mirrored"
+    ),
     "duality": (
-        "{left} and {right} are dual: each parameter set of one has one of the other with the same"
-        " response, positive if it is (disting equivalents --formulas prints it); masses are"
-        " computed from masses, springs and dampers are reversed and scaled"
+        "{left} and {right} are dual: each parameter set of one has an equivalent set of the"
+        " other, which is positive if the first is (disting equivalents --formulas prints it);"
+        " masses are computed from masses, springs and dampers are reversed and scaled"
     ),
     "Foster": (
         "{left} and {right} are undamped with force and sensor at one place: by Foster's theorem"
-        " each gives any resonances and antiresonances in turn"
+        " each can have any alternating resonances and antiresonances"
     ),
     "Cauer": (
         "{left} and {right} are undamped with force and sensor at an end of their only long row: by"
-        " Cauer's continued fraction each gives any resonances and antiresonances in turn, by one"
-        " set of positive values"
+        " Cauer's continued fraction each can have any alternating resonances and antiresonances,"
+        " with one set of positive values"
     ),
     "replacement": (
-        "{left} and {right} are the same but for parts that can replace each other (two-terminal"
+        "{left} and {right} are the same except for parts that can replace each other (two-terminal"
         " parts of two kinds of elements, trees that hang at a compartment, outflows)"
     ),
     "gears": (
-        "{left} and {right} are the same but for gears: a gear is a change of the units behind it"
+        "{left} and {right} are the same except for gears: a gear changes only the units behind it"
     ),
     "interlacing": (
-        "{left} and {right} are undamped trees of as many masses with one spring to the ground:"
-        " each gives any resonances, and any antiresonances each of which is between two"
-        " neighbouring ones of them"
+        "{left} and {right} are undamped trees with the same number of masses and one spring to the"
+        " ground: each can have any resonances, and any antiresonances that lie each between two"
+        " neighbouring resonances"
     ),
     "parts": (
-        "{left} and {right} are undamped and their rows at both sides of the gap can be exchanged"
-        " one by one"
+        "{left} and {right} are undamped, and their rows on both sides of the gap can replace each"
+        " other one by one"
     ),
 }
 WEAKER = {"Cauer": "Foster"}
@@ -223,8 +225,8 @@ _OBSTACLES = {
         "the transfer functions of {0} and {1} fall off at different rates for high frequencies"
     ),
     "residues": (
-        "{0} has negative residues in the row where force and sensor are apart, {1} has positive"
-        " ones alone"
+        "{0} has negative residues in the row where force and sensor are apart, {1} has only"
+        " positive ones"
     ),
     "own poles": (
         "the grounded and the free row of {1} would have to be those of {0}, which are of another"

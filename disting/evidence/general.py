@@ -136,7 +136,7 @@ class NoEquivalent(OverDomain):
         first = (c if len(c) <= LONGEST else f"{c[:LONGEST]} .." for c in whole)
         some = " or ".join([*first, *([".."] if len(self.contradictions) > SHOWN else [])])
         return (
-            f"{source} has no equivalent in {searched} with {self.domain} parameters: that asks for"
+            f"{source} has no equivalent in {searched} with {self.domain} parameters: that requires"
             f" {some}, which is impossible (p0, p1, .. parameters of {source} by the alphabet, q0,"
             f" q1, .. those of {searched})."
         )
@@ -210,7 +210,7 @@ class Witnesses(OverDomain):
     solutions: int
 
     def sentence(self, left: str, right: str) -> str:
-        """Both points in words."""
+        """Both points in words, and what they leave open."""
         source, searched = (left, right) if self.with_left_given else (right, left)
         without, nowhere = (left, right) if self.without_left_given else (right, left)
         many = {MANY: " (infinitely many complex)", UNCOUNTED: ""}.get(
@@ -219,7 +219,9 @@ class Witnesses(OverDomain):
         return (
             f"{source} at {_spell(self.point_with)} is {searched} at {_spell(self.equivalent)};"
             f" {without} at {_spell(self.point_without)} has no equivalent in {nowhere} with"
-            f" {self.domain} parameters{many}; the same is true all around both points."
+            f" {self.domain} parameters{many}; the same is true all around both points. It is"
+            f" not decided whether all {self.domain} values of {nowhere} have an equivalent in"
+            f" {without}."
         )
 
 

@@ -244,6 +244,6 @@ def _describe_step(step: RowStep, searched: str) -> str:
 
 _SPLITS = {
     "same": "with the same rows",
-    "exchanged": "with the rows exchanged but for a rigid body",
+    "exchanged": "with the rows exchanged except for a rigid body",
     "rigid": "with a rigid body as the free row",
 }

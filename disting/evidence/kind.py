@@ -24,8 +24,8 @@ Labels = tuple[str, ...]
 PointText = tuple[tuple[str, str], ...]
 """Parameter names and their values, as text."""
 # kinds that older versions wrote, each with what it rested on
-OUTSIDE = "an external program, which decides nothing now"
-GONE = {"program": OUTSIDE, "row": "an answer about rows of masses that is shipped no more"}
+OUTSIDE = "an external program, which is no longer used"
+GONE = {"program": OUTSIDE, "row": "results on rows of masses that are no longer shipped"}
 
 
 def label_runs(labels: Labels) -> str:

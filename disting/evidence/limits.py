@@ -321,7 +321,7 @@ class RowsInside(_Steps):
 _IN = {
     WHOLE: "",
     "same": ", with the same rows",
-    "exchanged": ", with the rows exchanged but for a rigid body",
+    "exchanged": ", with the rows exchanged except for a rigid body",
     "rigid": ", with a rigid body as the free row",
 }
 _TOLD = {

@@ -68,8 +68,8 @@ class Interlacing(Kind):
         lacking = [(p.part, _spell_words(p.lacking)) for p in self.parts if p.lacking]
         if not lacking:
             return (
-                f"However the zeros of {source} lie between its poles, positive parameters of"
-                f" {other} can do the same."
+                f"Wherever the zeros of {source} lie between its poles, positive parameters of"
+                f" {other} can place them there too."
             )
         which = " and ".join(f"{words} in the {name} row" for name, words in lacking)
         return (
@@ -338,7 +338,8 @@ class RealWitnesses(Kind):
         )
         return (
             f"{positive} But near {values} no real {source} has a real equivalent in {other}: its"
-            " poles and zeros cannot be shared out among the rows without parting two conjugates."
+            " poles and zeros cannot be shared out among the rows without separating two"
+            " conjugates."
         )
 
 

@@ -37,8 +37,8 @@ from disting.experiments.machine_model import MachineModel
 from disting.model.kinds import Kind
 from disting.model.minors import embeddings, is_minor, minors
 
-IMAGE_NOT_ASKED = "under several experiments only limits are asked for"
-NOT_SETTLED = "neither missing elements nor one experiment alone settles it"
+IMAGE_NOT_ASKED = "with several experiments only limits are decided"
+NOT_SETTLED = "neither missing elements nor a single experiment decides it"
 ProfileOf = Callable[[MeasuredChain], Profile]
 
 

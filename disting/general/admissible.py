@@ -188,7 +188,7 @@ def left_open(search: ValueSearch) -> Finding:
     """Partial results, where nothing decides."""
     note = (
         f"an equivalent with {search.domain} parameters was found {search.seen[2]}, which proves"
-        " nothing of the others"
+        " nothing about the others"
     )
     return Finding(ADMISSIBLE, Outcome.ABANDONED, note=note)
 

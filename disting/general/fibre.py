@@ -69,9 +69,7 @@ def solve(
         return _family(equations, ideal, parameters, seed, bounds)
     listed = _list_solutions(equations, parameters, seed, bounds)
     if listed is None:
-        return Fibre(
-            Extent.UNKNOWN, reason="no linear form tells the finitely many solutions apart"
-        )
+        return Fibre(Extent.UNKNOWN, reason="no linear form separates the finitely many solutions")
     return Fibre(Extent.FINITE, listed)
 
 

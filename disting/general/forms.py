@@ -89,7 +89,8 @@ def by_forms(
         ):
             return replace(the_finding, evidence=forms.evidence(the_finding.evidence))
         finding = replace(
-            the_finding, note=f"of the simplest networks that give the same, {the_finding.note}"
+            the_finding,
+            note=f"of the simplest networks with the same behaviour, {the_finding.note}",
         )
     return finding
 
@@ -217,7 +218,9 @@ def of_equals(finding: Finding, left: str, right: str) -> Finding:
     evidence = finding.evidence
     if not isinstance(evidence, OfNetworks):
         note = with_names(finding.note, left, right)
-        return replace(finding, note=f"of {left} and {right}, which give the same, {note}")
+        return replace(
+            finding, note=f"of {left} and {right}, which have the same behaviour, {note}"
+        )
     if isinstance(evidence, Replacement) and not (evidence.left_larger or evidence.right_larger):
         return finding  # their simplest networks are those of the others
     return replace(finding, evidence=Replacement(left, right, False, False, evidence))
@@ -260,8 +263,8 @@ def over_positive(
 
 
 def by_values(left: AnyModel, right: AnyModel, settings: Settings, effort: Effort) -> Finding:
-    """Maps, points and inequalities of the simplest networks that give the same, or of the two as
-    they are where nothing is replaced; a map without exception is stronger than a theorem.
+    """Maps, points and inequalities of the simplest networks with the same behaviour, or of the two
+    as they are where nothing is replaced; a map without exception is stronger than a theorem.
     """
     finding = by_forms(left, right, settings.seed, effort)
     if finding is None:

@@ -30,7 +30,7 @@ from disting.model.question import Question, Settings
 from disting.network.network import Network
 
 SETTINGS = Settings()
-OTHER_EXPONENTS = "other exponents may do the same"
+OTHER_EXPONENTS = "other exponents may give the same response"
 
 
 @dataclass(frozen=True, slots=True)

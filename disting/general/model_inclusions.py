@@ -23,8 +23,8 @@ from disting.network.branches import branches, rest_of
 from disting.network.minors import is_minor, minors
 from disting.network.network import Network
 
-IMAGE_NOT_ASKED = "of general models only limits are asked for"
-NOT_SETTLED = "neither missing elements nor the profiles settle it"
+IMAGE_NOT_ASKED = "of general models only limits are decided"
+NOT_SETTLED = "neither missing elements nor the profiles decide it"
 FRESH = Settings(seed="checked again")
 
 

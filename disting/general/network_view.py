@@ -34,7 +34,7 @@ from disting.model.presentation import GENERIC
 from disting.model.question import Of
 from disting.network.chains import RenamedChain
 
-OTHER_ORDER = "the exponents can be matched in another order, for which it is not asked"
+OTHER_ORDER = "the exponents can be matched in another order, which is not checked"
 
 
 @dataclass(frozen=True)

@@ -72,7 +72,7 @@ class Way:
         return (
             ""
             if self.looked_at == cases
-            else f"{cases - self.looked_at} of {cases} cases have too many unknowns to look"
+            else f"{cases - self.looked_at} of {cases} cases have too many unknowns for a search"
         )
 
     def having(self, values: Values) -> tuple[float, ...] | None:

@@ -167,7 +167,7 @@ class Verdict(NotebookTable):
         over = f" over {self.domain} parameters"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
-            return f"{self.models} are undecided{over}: nothing settles them{why}."
+            return f"{self.models} are undecided{over}: no method decides them{why}."
         depending = ", depending on their values" if self.relation is Relation.SOMETIMES else ""
         aside = ", special values aside" if self.has_exceptions else ""
         return (

@@ -30,11 +30,11 @@ from disting.network.denotation import MisnamedError, naming_of, refuse_misnamed
 from disting.renamed import renamed
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
+from disting.verdict.older_files import OLDER, in_older_words, without_primes
 from disting.verdict.result import Query, Relation, Verdict, View
 from disting.verdict.sides import Given, Sides, both_places, models_of_names, sides_of
 
 FORMAT = Format.VERDICT.value
-UNPRIMED = "disting verdict 1"  # explicit maps named the parameters of both models alike
 PLAIN = ("left", "right", "relation")  # by which a verdict without its models is known
 MOST_POINTS, MOST_SUBSETS, MOST_MARKOV, LONGEST_SEED = 100, 10**9, 1000, 1000
 MOST_EXPERIMENTS = 50
@@ -144,7 +144,7 @@ def read_file(data: object, beside: Collection[str] = ()) -> StoredVerdict:
     keys that it has not, MisnamedError for a name that denotes another model; `beside` = keys that
     are allowed for another reason.
     """
-    if not isinstance(data, dict) or data.get("format") not in (FORMAT, UNPRIMED):
+    if not isinstance(data, dict) or data.get("format") not in (FORMAT, OLDER):
         is_verdict = isinstance(data, dict) and (set(PLAIN) <= data.keys() or "verdicts" in data)
         what = "holds a verdict without its models" if is_verdict else "is no file of a verdict"
         raise InputError(f"it {what}; 'disting compare N:I M:J --json' writes one")
@@ -169,9 +169,8 @@ def difference(data: dict[str, Any], stored: StoredVerdict, sides: Sides) -> str
     there is none. `sides` are its models as they are compared.
     """
     again = as_file(stored)
-    if data.get("format") == UNPRIMED:
-        again |= {"format": UNPRIMED, "sentence": again["sentence"].replace("'", "")}
-        data = data | {"sentence": str(data.get("sentence", "")).replace("'", "")}
+    if data.get("format") == OLDER:
+        again, data = in_older_words(again) | {"format": OLDER}, without_primes(data)
     missing = object()
     fields = [
         name

@@ -209,7 +209,9 @@ def test_levels_of_exponents():
     )
     lost = identifiability("R1 1 2; P1 2 0; P2 2 3")
     assert (lost.levels["n2"].value, lost.rank) == ("not identifiable", 3)
-    assert "other exponents may do the same" in identifiability("R1-p(R2,P1,C1-P2)").reason
+    assert (
+        "other exponents may give the same response" in identifiability("R1-p(R2,P1,C1-P2)").reason
+    )
 
 
 def test_exponents_of_one_arc_can_be_no_others_between_0_and_1():

@@ -4,7 +4,8 @@ import sympy as sp
 
 from disting import compare
 from disting.general import Model
-from disting.verdict.verdict_file import UNPRIMED, verdict_file
+from disting.verdict.older_files import OLDER, in_older_words
+from disting.verdict.verdict_file import verdict_file
 from disting.verdict.verification import Status, verify
 
 K12, K21, K10, K20 = sp.symbols("k12 k21 k10 k20")
@@ -40,7 +41,7 @@ def test_a_map_is_true_with_its_primes():
 def test_a_file_of_the_format_without_primes_still_holds():
     data = verdict_file(*compartments())
     assert verify(data).status is Status.HOLDS
-    older = data | {"format": UNPRIMED, "sentence": data["sentence"].replace("'", "")}
+    older = in_older_words(data) | {"format": OLDER}
     assert verify(older).status is Status.HOLDS
     assert verify(data | {"sentence": older["sentence"]}).status is not Status.HOLDS
     assert (

@@ -142,7 +142,7 @@ def judge(parameters: int, rank: int, rank_grade: Grade, solutions: Listing) -> 
 def _reason(level: Level, solutions: Listing) -> str:
     """Why the number of solutions is not known."""
     if level is Level.UNKNOWN and solutions.most == 1:
-        return "one solution is found, and not proven to be the only one"
+        return "one solution was found; it is not proven to be the only one"
     return (
         solutions.reason if level is Level.UNKNOWN or solutions.status is Status.NOT_COVERED else ""
     )

@@ -178,7 +178,7 @@ def _rest(answer: Identifiability) -> str:
         return "no other non-zero parameters, real or complex, give the same behaviour"
     if answer.level is Level.UNKNOWN:
         return (
-            "finitely many parameter vectors give the same behaviour, how many is not known"
+            "finitely many parameter vectors give the same behaviour; their number is not known"
             f" ({answer.reason})"
         )
     if answer.level is Level.EXCHANGES:
@@ -196,7 +196,7 @@ def _over_domain(answer: Identifiability) -> str:
 
 
 def _over_complex(answer: Identifiability) -> str:
-    return count_in_words(answer) or "how many sets of complex values fit is not known"
+    return count_in_words(answer) or "the number of sets of complex values that fit is not known"
 
 
 def _count(answer: Identifiability) -> str:

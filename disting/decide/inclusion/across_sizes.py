@@ -87,9 +87,7 @@ def compute(small: Chain, large: Chain, settings: Settings) -> InclusionFinding:
         return InclusionFinding(Inclusion.NEITHER, grade, safety, PoleSharing(False, label, points))
     inside = find_containment(small, large, settings.seed)
     if inside is None:
-        return InclusionFinding(
-            Inclusion.UNKNOWN, reason="no limit is known, and nothing against one"
-        )
+        return InclusionFinding(Inclusion.UNKNOWN, reason="no limit is known, and none is excluded")
     solved = inside.solved
     evidence = LimitFibre(
         left_is_larger=False,

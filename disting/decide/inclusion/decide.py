@@ -53,7 +53,7 @@ from disting.model.question import Membership, Question, Settings
 INCLUSION_LIMITS = Limits(seconds=240.0, entries=200_000, safety=100)
 # of the ideal of one row, tried for every pair
 CLOSURE_LIMITS = Limits(seconds=60.0, entries=30_000, safety=100)
-NOT_ASKED = "of chains of different sizes only limits are asked for"
+NOT_ASKED = "chains of different sizes are compared by limits only"
 ONE_SENSOR = "models of one sensor quantity are compared"
 
 
@@ -62,7 +62,7 @@ def inclusions(left: ChainSide, right: ChainSide) -> Inclusions:
     answerer has to compute.
     """
     if left.rank == right.rank:
-        raise ValueError("of equal rank: equal or neither, as the verdict says")
+        raise ValueError("the ranks are equal: the verdict decides the inclusions")
     closure = quick_closure(left, right)
     if closure is None:
         closure = asked_closure(left, right)
@@ -250,7 +250,7 @@ def by_two_rows(small: Chain, large: Chain, settings: Settings) -> InclusionFind
     )
     if closed.evidence is None:
         return InclusionFinding(
-            Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known"
+            Inclusion.UNKNOWN, reason="no limit is known, and no equation excludes one"
         )
     return InclusionFinding(
         Inclusion.LEFT_IN_RIGHT, Certainty.BOUNDED, closed.safety, closed.evidence
@@ -273,7 +273,7 @@ def by_ideals(small: Chain, large: Chain, settings: Settings) -> Inclusions:
             return _read(whole.membership, whole.safety, evidence)
         reason = whole.reason
     unknown = InclusionFinding(
-        Inclusion.UNKNOWN, reason=f"the ideal of the fibre does not tell ({reason})"
+        Inclusion.UNKNOWN, reason=f"the ideal of the fibre does not decide ({reason})"
     )
     return Inclusions(unknown, unknown)
 
@@ -306,7 +306,7 @@ def _read(membership: Membership, safety: int, evidence: InclusionEvidence) -> I
         )
         return Inclusions(zeros, InclusionFinding(Inclusion.LEFT_IN_RIGHT, grade, safety, evidence))
     limits = InclusionFinding(
-        Inclusion.UNKNOWN, reason="no equation refutes limits, and none are known"
+        Inclusion.UNKNOWN, reason="no limit is known, and no equation excludes one"
     )
     return Inclusions(InclusionFinding(Inclusion.NEITHER, grade, safety, evidence), limits)
 

@@ -94,7 +94,7 @@ def roots(p: Poly, degree: int, excluded: Callable[[Ball], bool] = lambda z: Fal
     if degree == 0:
         return []
     if is_boundary(p[degree]):
-        raise Imprecise("a leading coefficient cannot be told from zero")
+        raise Imprecise("a leading coefficient cannot be distinguished from zero")
     if degree == 1:
         return [-p[0] / p[1]]
     isolated = _isolate_roots(p, None)
@@ -185,7 +185,7 @@ class Reason(StrEnum):
     """Why a branch ends without a solution; only NONZERO is a proof that it holds none."""
 
     NONZERO = "a ball leaves out a zero that every solution has"
-    BOUNDARY = "an element or leading coefficient cannot be told from zero"
+    BOUNDARY = "an element or leading coefficient cannot be distinguished from zero"
     OPEN = "this type of chain is not covered"
 
 

@@ -232,10 +232,12 @@ def _status(solutions: tuple[Solution, ...], tests: Exclusions) -> tuple[Status,
         return Status.INFINITE, "a family of solutions; one member per branch is listed"
     if solutions:
         return Status.COMPLETE, (
-            "all other branches are refuted" if not tests.boundary else "but for elements near zero"
+            "all other branches are refuted"
+            if not tests.boundary
+            else "except for elements near zero"
         )
     if tests.boundary:
-        return Status.DEGENERATE, "an element cannot be told from zero"
+        return Status.DEGENERATE, "an element cannot be distinguished from zero"
     return Status.EMPTY, "every branch is refuted"
 
 

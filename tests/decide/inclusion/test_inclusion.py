@@ -408,7 +408,7 @@ def test_families_tell_it_as_pairs_do():
 
 def test_equal_ranks_are_left_to_the_verdict():
     family = subjects(3, True)
-    with pytest.raises(ValueError, match="equal rank"):
+    with pytest.raises(ValueError, match="ranks are equal"):
         inclusions(family[0], family[5])
 
 
