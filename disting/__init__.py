@@ -11,7 +11,9 @@ Compare, and verdicts:
 
     compare                  verdict on two models
     compare_everywhere       verdicts for all places of a further sensor, force or lock
+    verdicts                 verdicts on all pairs of a size, of a list or of a family of networks
     findings                 what each condition finds on two models
+    positive_shares          how many values of a chain have an equivalent, within ranges
     prove                    proof of a verdict that rests on random points
     Verdict, Relation        a verdict; distinguishable, indistinguishable, sometimes, undecided
     Certainty, Inclusion     how sure it is; which model has responses that the other cannot produce
@@ -33,6 +35,8 @@ One model, and what has the same response:
     alternatives             parameters of one model with the response of another, at given values
     Alternatives             its answer
     gate                     which of many models are worth a fit
+    next_experiments         which experiments distinguish structures with the same response
+    dampers                  which sets of ground dampers of a chain can be distinguished
 
 Models and networks:
 
@@ -82,6 +86,7 @@ if TYPE_CHECKING:
     from disting.algebra.certainty import Certainty as Certainty
     from disting.behaviour.transfer import transfer_function as transfer_function
     from disting.catalogs import Catalog as Catalog, ModelRow as ModelRow, catalog as catalog
+    from disting.catalogs.dampers import dampers as dampers
     from disting.conditions.inclusion import Inclusion as Inclusion
     from disting.conditions.rule import Finding as Finding, Outcome as Outcome
     from disting.conditions.table import CONDITIONS as CONDITIONS
@@ -130,10 +135,12 @@ if TYPE_CHECKING:
         compare as compare,
         findings as findings,
         identifiability as identifiability,
+        positive_shares as positive_shares,
         prove as prove,
     )
     from disting.verdict.decisions import Decisions as Decisions
     from disting.verdict.engine import Engine as Engine
+    from disting.verdict.next_experiments import next_experiments as next_experiments
     from disting.verdict.placement_verdicts import (
         compare_everywhere as compare_everywhere,
         everywhere_file as everywhere_file,
@@ -146,6 +153,7 @@ if TYPE_CHECKING:
         View as View,
     )
     from disting.verdict.verdict_file import verdict_file as verdict_file
+    from disting.verdict.verdict_list import verdicts as verdicts
     from disting.verdict.verification import Verification as Verification, verify as verify
 
 if not TYPE_CHECKING:  # else any name would be right to a type checker

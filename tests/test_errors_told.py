@@ -81,6 +81,9 @@ NAMELESS: tuple[Call, ...] = tuple(
     (f".{name}", partial(getattr(disting, name), *more), InputError)
     for name, more in {
         "compare": ("3:1", "nonsense"),
+        "dampers": ("nonsense",),
+        "next_experiments": (["3:1", "3:4"],),
+        "verdicts": (["3:1", "nonsense"],),
         "compare_everywhere": ("3:1", "3:99", ["sensor=2"]),
         "equivalents": ("2:1", {"m1": 1}, "2:2"),
         "everywhere_file": ("3:1", "3:2", ["sensor=9"]),
@@ -102,6 +105,11 @@ CALLS: tuple[Call, ...] = (
     *NAMELESS,
     (".alternatives", lambda: disting.alternatives(MODEL, {"m1": 1}, MODEL), InputError),
     (".catalog", lambda: catalog(99), CatalogError),
+    (
+        ".positive_shares",
+        lambda: disting.positive_shares("3:1", "3:4", bound={"k99": (0, 1)}),
+        InputError,
+    ),
     (".prove", lambda: disting.prove(disting.compare("1:1", "1:1"), "1:1", "no"), InputError),
     (".write_models", lambda: disting.write_models("/dev/null/m.json", ModelList((MODEL,))), OSError),
     (".Catalog.verdict", lambda: catalog(2).verdict(1, 99), InputError),
@@ -159,6 +167,8 @@ CALLS: tuple[Call, ...] = (
     ("simulation.matrices", lambda: simulation.matrices(DRIVE, VALUES | {"m1": -1.0}), InputError),
     ("simulation.simulate", lambda: simulation.simulate(DRIVE, {}), InputError),
     ("simulation.simulate_all", lambda: simulation.simulate_all(network_of("1=2; F1; S1; S2"), {}), InputError),
+    ("fit.candidates", lambda: fit.candidates([1], sensor="2"), InputError),
+    ("fit.fit_networks", lambda: fit.fit_networks(measured(), ["R0-p(R1"]), InputError),
     ("fit.chosen_ports", lambda: fit.chosen_ports([1], "2", "2"), InputError),
     ("fit.collinearity_index", lambda: fit.collinearity_index(NAN), InputError),
     ("fit.condition_indices", lambda: fit.condition_indices(NAN), InputError),

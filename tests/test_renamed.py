@@ -7,6 +7,7 @@ import pytest
 
 import disting
 from disting import Chain, Family, InputError, compare, read_models, verdict_file, verify
+from disting.fit import select
 from disting.measurement import FrequencyResponse, TimeSeries, csv_text, from_arrays, read
 
 OMEGA = np.arange(1.0, 21.0)
@@ -71,3 +72,26 @@ def test_files_say_quantity_and_those_of_version_0_3_are_read(tmp_path):
     path.write_text(json.dumps({"format": "disting models 1", "models": models}))
     with pytest.raises(InputError, match="old name"):
         read_models(path)
+
+
+def test_select_takes_keywords_of_before():
+    """Values too: what was a function of the lines is among the weights."""
+    chain = Chain(1, damped=False)
+    data = FrequencyResponse(OMEGA, chain.frequency_response({"m1": 2.0}, OMEGA))
+
+    def ones(response):
+        return np.ones(len(response))
+
+    for old, new in (
+        ({"lines": ones, "fixed": {"m1": 2.0}}, {"weights": ones, "fix": {"m1": 2.0}}),
+        ({"alike": True, "most_lines": 18}, {"weights": "none", "lines": 18}),
+        ({"weights": (1.0, 2.0), "method": "starts"}, {"case_weights": (1.0, 2.0)}),
+    ):
+        with pytest.warns(DeprecationWarning, match="select: the argument .* is now") as told:
+            before = select(data, [chain], **old)
+        assert {warning.filename for warning in told} == {__file__} and len(told) == 2
+        now = select(data, [chain], **new)
+        assert before.described.estimate.parameters == now.described.estimate.parameters
+        assert len(before.task.cost.measured) == new.get("lines", len(OMEGA))
+    with pytest.raises(InputError, match="select: fixed is the old name of fix"):
+        select(data, [chain], fix={"m1": 2.0}, fixed={"m1": 2.0})

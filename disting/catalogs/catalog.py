@@ -449,8 +449,9 @@ class Catalog(NotebookTable):
 
 
 def catalog(n_masses: int, *, damped: bool = True, folder: Path | None = None) -> Catalog:
-    """The shipped catalogue of all chains with 1 to 5 masses (or one from another folder); no
-    computation. Raises CatalogError if there is none, or if its file is not what was written.
+    """The shipped catalogue of all chains with 1 to 5 masses (or one from another folder), with
+    a damper beside every spring or, if not `damped`, without; no computation. Raises CatalogError
+    if there is none, or if its file is not what was written.
 
     >>> len(catalog(3, damped=False).family), catalog(3, damped=False).verdict(1, 2).relation.value
     (11, 'distinguishable')

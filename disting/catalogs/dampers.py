@@ -38,19 +38,21 @@ from disting.catalogs.files import (
 )
 from disting.conditions.rule import EXACT, WRITTEN
 from disting.decide.same.low_cost import PATIENTLY
-from disting.errors import CatalogError, InputError
+from disting.errors import CatalogError, InputError, of_type, short
 from disting.files import intact_text, write_whole
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.model.names import read_together
 from disting.model.presentation import plural, summary
 from disting.model.question import Domain, Settings
 from disting.model.symmetry import canonical
+from disting.renamed import renamed
 from disting.verdict.class_search import classes
 from disting.verdict.classes import Classes
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.forest import classes_of
-from disting.verdict.result import Query, Relation, Verdict, View
+from disting.verdict.result import Relation, Verdict, query_of
 
 Masses = tuple[int, ...]
 COLUMNS = ("left", "right", "relation", "decided_by", "domain", "damped", "quantity")
@@ -147,11 +149,13 @@ class DamperTable:
         return self.sets.index(left), self.sets.index(right)
 
 
+@renamed(which="sets")
 def dampers(
-    chain: Chain,
-    which: DamperSets = DamperSets.SINGLE,
+    chain: Chain | str,
+    sets: DamperSets | str = DamperSets.SINGLE,
     *,
-    domain: Domain = Domain.POSITIVE,
+    damped: bool | None = None,
+    domain: Domain | str = Domain.POSITIVE,
     engine: Engine | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
@@ -159,21 +163,25 @@ def dampers(
     """The table of a chain over a domain of parameters; ground dampers that it has already are
     replaced by each set in turn.
 
-    Over positive parameters sets are undecided where they are indistinguishable over complex ones
-    and no theorem decides.
+    `sets`: "single" (none, or one) or "all" 2^N; `chain` also by its name, to which `damped`
+    applies; `domain`: "complex", "real" or "positive". Over positive parameters sets are undecided
+    where they are indistinguishable over complex ones and no theorem decides. Raises InputError.
 
     >>> from disting.model.family import Family
     >>> dampers(Family(3, damped=True)[3], domain=Domain.COMPLEX).classes()
     (((),), ((1,), (2,), (3,)))
     """
     engine = engine or Engine()
-    sets = which.of(chain.n_masses)
-    subjects = [engine.subject(spell(s), replace(chain, ground_dampers=s)) for s in sets]
-    view = View.EXACT if domain is Domain.COMPLEX else View(domain.value)
-    decided = engine.decisions(
-        subjects, Query(view, inclusion=False), executor=executor, progress=progress
-    )
-    return DamperTable(chain, sets, decided)
+    of_type(chain, Chain | str, "dampers are those of a chain, or of its name such as '3:4'")
+    if isinstance(chain, str):
+        (chain,) = read_together([chain], damped=damped)
+    if sets not in tuple(DamperSets):
+        raise InputError(f"sets is {' or '.join(DamperSets)}, not {short(sets)}")
+    each = DamperSets(sets).of(chain.n_masses)
+    subjects = [engine.subject(spell(s), replace(chain, ground_dampers=s)) for s in each]
+    query = replace(query_of(None, domain), inclusion=False)
+    decided = engine.decisions(subjects, query, executor=executor, progress=progress)
+    return DamperTable(chain, each, decided)
 
 
 # masses: there shares and ideals are asked where the synthesis is silent; for 5 they take up to

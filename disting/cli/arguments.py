@@ -8,8 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from disting.cli.output import written_file, written_folder
-from disting.conditions.rule import RULES
+from disting.cli.output import complain, written_file, written_folder
+from disting.conditions.rule import RULES, condition_names
 from disting.errors import InputError, short
 from disting.model.family import MOST_MASSES
 from disting.model.kinds import EXAMPLES
@@ -146,19 +146,11 @@ def frequency_range(text: str) -> tuple[float, float]:
 
 
 def conditions(text: str) -> tuple[str, ...]:
-    """Names and ranges such as 1-5,8, in the order of the table."""
-    names = [rule.name for rule in RULES.values() if rule.is_condition]
-    chosen = set[str]()
-    for part in text.split(","):
-        low, dash, high = part.strip().partition("-")
-        high = high if dash else low
-        if not {low, high} <= set(names) or names.index(high) < names.index(low):
-            offered = f"the conditions {names[0]} to {names[-1]}"
-            raise argparse.ArgumentTypeError(
-                f"conditions are written like 1-5,8, of {offered}, not {short(text)}"
-            )
-        chosen |= set(names[names.index(low) : names.index(high) + 1])
-    return tuple(name for name in names if name in chosen)
+    """Names and ranges such as 1-5,8, in the order of the table; raises ArgumentTypeError."""
+    try:
+        return condition_names(text)
+    except InputError as reason:
+        raise argparse.ArgumentTypeError(str(reason)) from None
 
 
 def add_damped(parser: argparse.ArgumentParser) -> None:
@@ -226,6 +218,37 @@ def add_json(
 def refuse(parser: argparse.ArgumentParser, option: str, remedy: str) -> None:
     """An option of another meaning elsewhere, or of before, is refused with what to write."""
     parser.add_argument(option, action=_Refused, remedy=remedy)
+
+
+def add_old_option(
+    parser: argparse.ArgumentParser, old: str, new: str, kind: Callable[[str], object]
+) -> None:
+    """The old name of an option with a value, accepted for one version, with a warning."""
+    parser.add_argument(old, action=_Renamed, new=new, type=kind)
+
+
+class _Renamed(argparse.Action):
+    """The old name of an option."""
+
+    def __init__(
+        self, option_strings: list[str], dest: str, new: str, type: Callable[[str], object]
+    ) -> None:
+        place = new.removeprefix("--").replace("-", "_")
+        super().__init__(
+            option_strings, place, type=type, default=argparse.SUPPRESS, help=argparse.SUPPRESS
+        )
+        self.new = new
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option_string: str | None = None,
+    ) -> None:
+        """Keep the value, and say the new name."""
+        complain(f"{option_string} is now {self.new}; the old name works in this version only")
+        setattr(namespace, self.dest, values)
 
 
 class _Refused(argparse.Action):

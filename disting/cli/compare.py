@@ -23,14 +23,14 @@ from disting.cli.arguments import (
     add_notation,
     add_quantity,
 )
-from disting.cli.relations import in_colour, query
+from disting.cli.relations import in_colour
 from disting.conditions.inclusion import Inclusion, InclusionFinding
 from disting.evidence.positive import PositiveFinding
 from disting.model.chain import Chain, Quantity, text_drawing
 from disting.model.names import NAME, name_of, names_of, read, read_together
 from disting.model.question import Domain
 from disting.verdict.meaning import RESPONSE, meaning_sentence, undetermined_sentence
-from disting.verdict.result import Query, Relation, Verdict, View
+from disting.verdict.result import Query, Relation, Verdict, query_of
 
 Known = tuple[str, int, int]
 """The name of a model, how much of it is determined, how many parameters it has."""
@@ -193,7 +193,7 @@ def run(options: argparse.Namespace) -> int:
     more = options.json or options.bound or options.also or options.prove
     if not more and all(map(NAME.fullmatch, texts)):
         chains = read_together(texts, damped=options.damped, quantity=options.quantity)
-        verdict = look_up(chains, query(options.conditions, View.EXACT, options.domain))
+        verdict = look_up(chains, query_of(options.conditions, options.domain))
         if verdict is not None:
             print("\n".join(_describe_stored(in_order(chains, verdict), verdict)))
             return 0

@@ -97,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
         job = partial(
             dampers,
             chain,
-            DamperSets(options.sets),
+            options.sets,
             engine=engine,
             executor=pool,
             progress=progress,

@@ -10,11 +10,8 @@ from typing import Any
 from disting.cli.compare import Known, both_ways, explain, in_order, look_up, shipped_ranks
 from disting.cli.model_names import in_letters, models_of
 from disting.cli.output import emit
-from disting.cli.relations import query
 from disting.cli.workers import engine_for, told_if_long
-from disting.decide.positive import ranges, within_ranges
-from disting.errors import InputError, enumeration
-from disting.evidence.positive import PositiveFinding
+from disting.errors import InputError
 from disting.experiments import Experiment, MeasuredChain, Places, move, parse_experiment
 from disting.files import json_text
 from disting.general.any_model import measurand
@@ -24,14 +21,14 @@ from disting.general.special_values import SpecialValues, special_values
 from disting.model.chain import Chain, text_drawing
 from disting.model.question import Domain, Settings
 from disting.network.denotation import FREE_NAMES
-from disting.verdict.comparison import compare, prove
+from disting.verdict.comparison import compare, positive_shares, prove
 from disting.verdict.placement_verdicts import (
     AllPlacements,
     Answer,
     compare_everywhere,
     everywhere_file,
 )
-from disting.verdict.result import Query, Relation, Verdict, View
+from disting.verdict.result import Query, Relation, Verdict, query_of
 from disting.verdict.sides import determinable, names_beside
 from disting.verdict.verdict_file import StoredVerdict, as_file, exact, has_more
 
@@ -44,7 +41,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json and options.bound:
         raise InputError("--json is not supported with --bound; remove one of them")
     sides = models_of((options.left, options.right), options)
-    wanted = query(options.conditions, View.EXACT, options.domain)
+    wanted = query_of(options.conditions, options.domain)
     if options.also:
         return _under_experiments(sides, wanted, options)
     judgement = judge(sides, wanted, options)
@@ -87,7 +84,7 @@ def judge(
 def verdict_file(texts: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
     """The verdict on two models, as they are named, with all that its check needs."""
     sides = models_of(texts, options)
-    wanted = query(options.conditions, View.EXACT, options.domain)
+    wanted = query_of(options.conditions, options.domain)
     if not options.also:
         return file_of(judge(sides, wanted, options), wanted, options)
     left, right = sides
@@ -121,7 +118,8 @@ def _describe(judgement: Judgement, limits: Mapping[str, tuple[str, str]]) -> It
     sentence = special.sentence(verdict.left, verdict.right) if special else ""
     yield from [f"special    {sentence}"] if sentence else []
     if chains and limits:
-        yield from both_ways(verdict, "within the ranges", _within(chains, limits))
+        shares = positive_shares(*chains, bound=limits)
+        yield from both_ways(verdict, "within the ranges", shares)
     elif chains and not verdict.proves_shares:
         yield from both_ways(verdict)
     if has_free_name(model for model in judgement.models if not isinstance(model, Chain)):
@@ -135,25 +133,6 @@ def _at_special_values(sides: Sequence[Chain | AnyModel], verdict: Verdict) -> S
     if verdict.domain is Domain.POSITIVE and len(models) == len(sides) and matters:
         return special_values(*models)
     return None
-
-
-def _within(
-    chains: Sequence[Chain], limits: Mapping[str, tuple[str, str]]
-) -> tuple[PositiveFinding, PositiveFinding]:
-    """Positive models of each chain, within ranges, that have an equivalent in the other."""
-    names = dict.fromkeys(name for chain in chains for name in chain.parameters)
-    unknown = sorted(limits.keys() - names.keys())
-    if unknown:
-        raise InputError(
-            f"no parameter of the two models is called {enumeration(unknown)}; their parameters"
-            f" are {enumeration(names)}"
-        )
-    left, right = chains
-    of_left, of_right = ({n: limits[n] for n in c.parameters if n in limits} for c in chains)
-    return (
-        within_ranges(left, right, ranges(of_left, of_right)),
-        within_ranges(right, left, ranges(of_right, of_left)),
-    )
 
 
 def _chains(sides: Sequence[Chain | AnyModel]) -> list[Chain]:

@@ -17,27 +17,21 @@ from disting.cli.output import emit
 from disting.cli.workers import Work, announce, cores, engine_for
 from disting.errors import InputError, enumeration, printable
 from disting.files import json_text, write_whole
-from disting.fit.judge.admissible import Rule
 from disting.fit.judge.readings import read_in_words
 from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.selection import Selection
-from disting.fit.search.candidates import chosen_ports, on_elastic_bases, whole_family
-from disting.fit.search.cost import Case, lines_by_coherence, lines_by_deviation
+from disting.fit.search.candidates import candidates
 from disting.fit.select import MOST_LINES, select
 from disting.measurement import FrequencyResponse
 from disting.measurement.response import NO_MOTION
 from disting.model.chain import Chain
 from disting.model.family import Family
 from disting.report.fit.selection_json import selection_to_dict
-from disting.statistics.practical import Thresholds
 
-# what few runs need is imported where options name it: an earlier fit, a swarm, files of models
+# what few runs need is imported where options name it: an earlier fit, files of models
 if TYPE_CHECKING:
-    from disting.fit.search.estimate import Method
     from disting.planning.fit_file import FitRecord
 
-WEIGHTS = {"std": lines_by_deviation, "coherence": lines_by_coherence}
-SIGNS = {"+": 1, "-": -1, "auto": 0}  # see `select`
 # options that name candidates, and where results go, with the number of words that follow
 CANDIDATES = {"--masses": 1, "--actuator": 1, "--gap": 1, "--family": 0, "--base": 0}
 OUTPUTS = {"--out": 1, "--json": 1, "--site": 1, "--profiles": 0, "--left": 1, "--demo": 0}
@@ -62,10 +56,10 @@ def run(options: argparse.Namespace) -> int:
     left = _read_left(options)
     if left is None:
         announce(Work.FITS, _count_candidates(options), options.jobs or cores())
-    candidates = _candidates(options, measured, left.chains if left else ())
-    options.jobs = options.jobs or (cores() if len(candidates) > FEW else 1)
+    chains = _candidates(options, measured, left.chains if left else ())
+    options.jobs = options.jobs or (cores() if len(chains) > FEW else 1)
     home = _like_measured(left.model, measured) if left else None
-    selection = _select(options, measured, candidates, home, controller)
+    selection = _select(options, measured, chains, home, controller)
     if options.json:
         plain = selection_to_dict(selection)
         text = json_text(plain, indent=1)
@@ -94,7 +88,7 @@ def _no_drive(options: argparse.Namespace, measured: Data) -> int:
 def _select(
     options: argparse.Namespace,
     measured: Data,
-    candidates: Sequence[Chain],
+    chains: Sequence[Chain],
     home: Chain | None,
     controller: Controller | None,
 ) -> Selection:
@@ -102,37 +96,28 @@ def _select(
     with engine_for(options) as (engine, pool, progress):
         selection = select(
             measured.train,
-            candidates,
+            chains,
             test=measured.test,
             further=measured.further,
             home=home,
-            alike=options.weights == "none",
-            thresholds=Thresholds(*options.thresholds),
-            rule=Rule(options.rule),
-            case=Case(options.case) if options.case else None,
-            lines=WEIGHTS.get(options.weights),
-            sign=SIGNS[options.sign.split(",")[0]],
-            bounds=dict(options.bound),
-            fixed=dict(options.fix),
+            dead_time=options.dead_time,
+            weights=options.weights,
+            thresholds=options.thresholds,
+            rule=options.rule,
+            case=options.case,
+            sign=options.sign.split(",")[0],
+            bound=dict(options.bound),
+            fix=dict(options.fix),
             seed=options.seed,
             prune=not options.no_prune,
-            most_lines=options.lines or MOST_LINES,
+            lines=options.lines or MOST_LINES,
             controller=controller,
-            method=_method(options.optimiser),
+            optimiser=options.optimiser,
             engine=engine,
             executor=pool,
             progress=progress,
         )
     return replace(selection, command=_again(options.words))
-
-
-def _method(optimiser: str) -> "Method | None":
-    """The search that an option names, None for that of `select`."""
-    if optimiser != "swarm":
-        return None
-    from disting.fit.search.swarm import by_swarm
-
-    return by_swarm
 
 
 def _onward(selection: Selection, out: Path) -> Iterator[str]:
@@ -195,30 +180,20 @@ def _again(words: Sequence[str]) -> str:
 def _candidates(
     options: argparse.Namespace, measured: Data, left: Sequence[Chain] = ()
 ) -> tuple[Chain, ...]:
-    """The structures to fit, or those that an earlier fit left; raises InputError where a parameter
-    named by --fix or --bound is in none of them.
-    """
+    """The structures to fit, or those that an earlier fit left."""
     quantity = measured.train.quantity
     if left:
-        chains = tuple(_like_measured(chain, measured) for chain in left)
-    elif options.family:
-        chains = whole_family(options.masses, quantity)
-    else:
-        chains = chosen_ports(
-            options.masses, options.actuator, sensors(options)[0], options.gap, quantity
-        )
-        chains += on_elastic_bases(chains) if options.base else ()
-    if not left:
-        chains = tuple(replace(chain, damped=is_damped(options)) for chain in chains)
-    names = {name for chain in chains for name in chain.parameters}
-    names |= {further.setup.delay for further in measured.further} - {""}
-    unknown = [name for name, _ in (*options.fix, *options.bound) if name not in names]
-    if unknown:
-        raise InputError(
-            f"no candidate has a parameter {enumeration(unknown)}; their parameters are"
-            f" {enumeration(sorted(names))}"
-        )
-    return chains
+        return tuple(_like_measured(chain, measured) for chain in left)
+    return candidates(
+        options.masses,
+        actuator=options.actuator,
+        sensor=sensors(options)[0],
+        gap=options.gap,
+        family=options.family,
+        base=options.base,
+        damped=is_damped(options),
+        quantity=quantity,
+    )
 
 
 def _write(

@@ -13,14 +13,13 @@ from disting.experiments.changes import GENERIC, read_changes
 from disting.fit.search.joint import FurtherResponse
 from disting.fit.search.setup import Setup
 from disting.fit.select import MOST_LINES
-from disting.measurement import FrequencyResponse, beginnings, in_si, mean_of, read
-from disting.measurement.scaling import scale, with_constant
+from disting.measurement import FrequencyResponse, beginnings, mean_of, read
+from disting.measurement.scaling import in_units, reader_units
 from disting.model.kinds import CHANGES
 from disting.model.presentation import plural
 
 # options of the readers that tell which response of a file is meant: one for all, or one for each
 OF_EACH = ("column", "output", "response", "record", "quantity", "sign", "to")
-OF_READER = ("frequency", "phase", "magnitude")  # units that a reader takes
 EXPERIMENT = re.compile(r"(.+?):((?:[a-z]+)=.*)")
 CHANGED = {kind.name: kind for kind in CHANGES}
 FORM = (
@@ -154,9 +153,6 @@ def _from_files(options: argparse.Namespace) -> Data:
     ][1:]
     for text in options.experiment:
         whole += _experiment(text, options, dict(zip(places, signs, strict=True)))
-    if options.dead_time == "own":
-        named = enumerate(whole, 2)
-        whole = [replace(f, setup=replace(f.setup, delay=f"Td{k}")) for k, f in named]
     return Data(train[0], tests[0] if tests else None, tuple(whole))
 
 
@@ -196,7 +192,7 @@ def read_mean(
         [read(file, **settings) for file, settings in zip(files, each, strict=True)],
         outliers=options.outliers,
     )
-    return in_units(response, options)
+    return in_units(response, dict(options.unit), options.scale, options.torque_constant)
 
 
 def settings_of(
@@ -219,23 +215,10 @@ def settings_of(
 
 def reader_settings(options: argparse.Namespace) -> dict[str, Any]:
     """Return the options of `disting.measurement.read` that a command line names."""
-    units = dict(options.unit)
     settings = dict(options.read) | ({"column": options.column} if options.column else {})
-    settings |= {f"{name}_unit": units[name] for name in OF_READER if name in units}
+    settings |= reader_units(dict(options.unit))
     settings |= {"hold": options.hold} if options.hold else {}
     return settings | ({"quantity": options.quantity} if options.quantity else {})
-
-
-def in_units(response: FrequencyResponse, options: argparse.Namespace) -> FrequencyResponse:
-    """Return a response with the units and factors of the command line. Raises InputError."""
-    units = dict(options.unit)
-    response = scale(response, options.scale) if options.scale is not None else response
-    response = in_si(response, input=units.get("input"), output=units.get("output"))
-    return (
-        with_constant(response, options.torque_constant)
-        if options.torque_constant is not None
-        else response
-    )
 
 
 def _of_one(settings: dict[str, Any], which: int, count: int) -> dict[str, Any]:

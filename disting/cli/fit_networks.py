@@ -16,7 +16,7 @@ from disting.errors import InputError, enumeration
 from disting.files import json_text
 from disting.fit.networks import fit_networks
 from disting.fit.results.networks import BAR, NetworkSelection
-from disting.fit.search.candidates import chosen_ports, on_elastic_bases
+from disting.fit.search.candidates import candidates
 from disting.fit.search.machines import as_machine, each_once, with_ground_damper
 from disting.measurement import FrequencyResponse
 from disting.measurement.impedance import TURNED, as_impedance
@@ -87,10 +87,16 @@ def _beside_chains(networks: Sequence[Network], options: argparse.Namespace) -> 
         )
     if len(sensors(options)) > 1:
         raise InputError("chains and networks are compared by one response: name one --sensor")
-    chains = chosen_ports(options.masses, options.actuator, options.sensor, options.gap)
-    bare = [c for c in chains if not (c.ground_dampers or c.lag or c.dead_time)]
-    bare += on_elastic_bases(bare) if options.base else ()
-    machines = [as_machine(replace(chain, damped=is_damped(options))) for chain in bare]
+    chains = candidates(
+        options.masses,
+        actuator=options.actuator,
+        sensor=options.sensor,
+        gap=options.gap,
+        base=options.base,
+        damped=is_damped(options),
+    )
+    bare = [c for c in chains if not (c.ground_dampers or c.lag or c.dead_time or c.gap_damper)]
+    machines = [as_machine(chain) for chain in bare]
     whole = [*machines, *networks]
     return each_once(with_ground_damper(whole) if options.ground_damper else whole)
 

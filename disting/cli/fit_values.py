@@ -7,8 +7,8 @@ from typing import Any
 
 from disting.cli.arguments import frequency_range
 from disting.errors import short
+from disting.measurement.options import UNITS
 
-UNITS = ("frequency", "phase", "magnitude", "input", "output")
 SIGNS = ("+", "-", "auto")
 
 

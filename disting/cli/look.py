@@ -12,7 +12,6 @@ from typing import Any
 from disting.cli.fit_data import (
     check_source,
     experiment_of,
-    in_units,
     reader_settings,
     sensors,
     settings_of,
@@ -23,7 +22,8 @@ from disting.errors import InputError, printable
 from disting.files import json_text
 from disting.measurement import FrequencyResponse
 from disting.measurement.look_text import WIDTH, look_lines
-from disting.measurement.looking import Look, look, look_at, name_units
+from disting.measurement.looking import Look, look, look_at
+from disting.measurement.scaling import in_units
 from disting.model.chain import Quantity
 from disting.model.presentation import plural
 
@@ -67,7 +67,13 @@ def _views(options: argparse.Namespace, unread: list[str]) -> Iterator[View]:
     if options.demo:
         from disting.simulation import demo
 
-        yield View("", look_at(demo(), Quantity.ACCELERATION, list(_changes(options))))
+        in_si = partial(
+            in_units,
+            unit=dict(options.unit),
+            scale_by=options.scale,
+            torque_constant=options.torque_constant,
+        )
+        yield View("", look_at(demo(), Quantity.ACCELERATION, [in_si, *_changes(options)]))
         return
     places = sensors(options)
     if len(options.train) > 1 and len(places) == 1:
@@ -134,16 +140,19 @@ def _look_at(
         file,
         repeat=repeat,
         outliers=options.outliers,
+        scale=options.scale,
+        torque_constant=options.torque_constant,
+        unit=dict(options.unit),
         changes=list(_changes(options, which)),
         **settings,
     )
-    looked = replace(looked, refusals=(*reasons, *looked.refusals))
-    return name_units(looked, dict(options.unit))
+    return replace(looked, refusals=(*reasons, *looked.refusals))
 
 
 def _changes(options: argparse.Namespace, which: int = 0) -> Iterator[partial[FrequencyResponse]]:
-    """Preprocessing steps that a fit applies to a response before it computes with it."""
-    yield partial(in_units, options=options)
+    """Preprocessing steps that a fit applies to a response in SI units before it computes with
+    it.
+    """
     if options.band:
         yield partial(FrequencyResponse.masked, low=options.band[0], high=options.band[1])
     if options.lines:

@@ -28,7 +28,7 @@ from disting.cli.verdicts import LISTS, listed_models, refuse_chain_options
 from disting.cli.workers import Work, announce, engine_for
 from disting.decide.identifiability import Level, ParameterIdentifiability
 from disting.errors import InputError, enumeration
-from disting.experiments import Experiment, MeasuredChain, parse_experiment
+from disting.experiments import Experiment, MeasuredChain
 from disting.experiments.identifiable import IDENTIFIABLE
 from disting.general.any_model import of_network
 from disting.model.chain import LEGEND, text_drawing
@@ -38,7 +38,7 @@ from disting.model.names import damping_option
 from disting.model.question import Domain
 from disting.network import Network, network_of
 from disting.network.families import DAMPED, KINDS, Kind
-from disting.verdict.comparison import identifiability
+from disting.verdict.comparison import identifiability, with_unmodified
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.identifiable import Identified, identify, identify_measured
 
@@ -100,7 +100,7 @@ def run(options: argparse.Namespace) -> int:
     if options.masses > MOST_LISTED:
         raise InputError(f"models of at most {MOST_LISTED} masses are listed")
     family, domain = Family(options.masses, is_damped(options)), Domain(options.domain)
-    also = [_one_model(text) for text in options.also]
+    also = with_unmodified(options.also)[1:]
     if also or (options.identifiability and family.n_masses not in SHIPPED_SIZES):
         work = Work.UNDER_EXPERIMENTS if also else Work.IDENTIFIABILITY
         announce(work, {family.n_masses: len(family) * max(1, len(also))}, options.jobs)
@@ -172,12 +172,9 @@ def _of_network(network: Network, options: argparse.Namespace) -> int:
             f"{damping_option(options.damped)} is supported for numbered chains only: the text"
             f" of a network has its dampers"
         )
-    model, also = of_network(network), map(_one_model, options.also)
-    experiments = [Experiment(), *also] if options.also else []
+    model, experiments = of_network(network), with_unmodified(options.also)
     with engine_for(options) as (engine, _, _progress):
-        identified = identifiability(
-            model, experiments=experiments, domain=options.domain, engine=engine
-        )
+        identified = identifiability(model, also=options.also, domain=options.domain, engine=engine)
     print(f"{model.name}  {in_letters(model, MOST_TERMS, '')}")
     if network.unseen:
         print(
@@ -219,14 +216,6 @@ def _summarise(profile: Profile) -> tuple[str, str, str]:
     """Degrees, non-constant coefficients, parameters."""
     n, m = profile.degrees
     return f"{n}/{m}", str(len(profile.form)), str(profile.n_parameters)
-
-
-def _one_model(text: str) -> Experiment:
-    """The experiment of an option that names masses of one model; raises InputError."""
-    parsed = parse_experiment(text)
-    if parsed.places:
-        raise InputError(f"{text} names masses of two models: write only {text.partition('/')[0]}")
-    return parsed.experiment
 
 
 def _under_experiments(

@@ -4,7 +4,6 @@ import argparse
 import csv
 import io
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import combinations
 
 from disting.catalogs import catalog
 from disting.catalogs.dampers import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
@@ -20,7 +19,6 @@ from disting.cli.arguments import (
 from disting.cli.model_names import is_network, structures
 from disting.cli.output import emit, written_file
 from disting.cli.workers import engine_for
-from disting.conditions.side import AnySide
 from disting.errors import InputError, enumeration, printable
 from disting.experiments.experiment import places_of
 from disting.experiments.menu import Costs, Item
@@ -30,7 +28,13 @@ from disting.model.kinds import COSTS, PRICES
 from disting.model.names import name_of, read, read_together
 from disting.network.network import Network
 from disting.verdict.engine import Engine
-from disting.verdict.next_experiments import Menu, menu_for
+from disting.verdict.next_experiments import (
+    Distinguishable,
+    Menu,
+    menu_for,
+    refuse_distinguishable,
+    sides_as_measured,
+)
 from disting.verdict.next_words import (
     CSV_COLUMNS,
     AnyMenu,
@@ -40,7 +44,7 @@ from disting.verdict.next_words import (
     rows,
     to_dict,
 )
-from disting.verdict.result import Query, Relation, View
+from disting.verdict.result import View
 
 Named = tuple[str, Chain]
 Table = Iterable[Sequence[str]]
@@ -116,13 +120,13 @@ def _networks(options: argparse.Namespace, costs: Costs) -> int:
             " response"
         )
     names = [network.name for network in networks]
+    group = list(zip(names, networks, strict=True))
     with engine_for(options) as (engine, pool, progress):
-        sides = engine.general_subjects(networks, names)
-        apart = _told_apart(sides, engine)
-        if apart:
-            print(apart)
+        try:
+            refuse_distinguishable(sides_as_measured(group, engine), engine)
+        except Distinguishable as answer:
+            print(answer)
             return 0
-        group = list(zip(names, networks, strict=True))
         advice = menu_for(group, engine, costs=costs, executor=pool, progress=progress)
     return _write_result(
         options,
@@ -241,26 +245,12 @@ def _group(options: argparse.Namespace, engine: Engine) -> list[Named] | str:
     names = [name_of(chain) for chain in chains]
     if len(names) == 1:
         return _all_like(names[0], is_damped(options))
-    if len({chain.n_masses for chain in chains}) > 1:
-        raise InputError("the structures have different numbers of masses: name some of one size")
     named = list(zip(names, chains, strict=True))
-    return _told_apart([engine.subject(name, chain) for name, chain in named], engine) or named
-
-
-def _told_apart(sides: Sequence[AnySide], engine: Engine) -> str:
-    """Sentence on two that the present measurement distinguishes, "" where none are; raises
-    InputError where that is not known.
-    """
-    for left, right in combinations(sides, 2):
-        verdict = engine.verdict(left, right, Query(View.EXACT, inclusion=False))
-        if verdict.relation is Relation.DISTINGUISHABLE:
-            return (
-                f"{left.name} and {right.name} are distinguishable by the present measurement"
-                " already"
-            )
-        if verdict.relation is Relation.UNDECIDED:
-            raise InputError(f"{left.name} and {right.name} are undecided as they are measured now")
-    return ""
+    try:
+        refuse_distinguishable(sides_as_measured(named, engine), engine)
+    except Distinguishable as answer:
+        return str(answer)
+    return named
 
 
 def _all_like(name: str, damped: bool) -> list[Named] | str:

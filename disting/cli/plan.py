@@ -1,7 +1,7 @@
 """disting plan: how much measuring distinguishes two structures."""
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -17,10 +17,8 @@ from disting.files import Format, json_text
 from disting.fit.search.containment import contains
 from disting.fit.search.starts import Parameters
 from disting.measurement import read
-from disting.measurement.arrays import Real
-from disting.measurement.impedance import as_impedance
-from disting.model.chain import Sort
 from disting.model.names import damping_option
+from disting.planning.effort import Effort, effort_of
 from disting.planning.fit_file import (
     FitRecord,
     NamedNetworks,
@@ -29,34 +27,13 @@ from disting.planning.fit_file import (
     networks_named_by,
 )
 from disting.planning.power import Answer, Plan, plan, plan_to_dict
-from disting.planning.rival import AnyStructure, name_of, responses_of, sensor_of
+from disting.planning.rival import AnyStructure, name_of
 from disting.planning.spectrum import Design, design, designed_to_dict
 from disting.report.fit.plan_page import write_plans
-from disting.report.fit.plan_words import FEWEST, LOUD, plan_in_words, rivals_in_words
+from disting.report.fit.plan_words import LOUD, plan_in_words, rivals_in_words
 from disting.report.fit.write import write_plan
-from disting.statistics.scatter import scatter
 
 AnyNamed = FitRecord | NamedNetworks
-LINES = 120
-MOST_REPEATS = 1000  # beyond, a scatter is known
-
-
-@dataclass(frozen=True, eq=False)
-class Effort:
-    """Lines [rad/s] and their scatter, shape (n_f,) each, where it is known from, and of how many
-    repeats a fit will find it.
-    """
-
-    omega: Real
-    rho: Real
-    source: str
-    repeats: int = 1
-
-    def planned(
-        self, model: AnyStructure, values: Parameters, rival: AnyStructure, **work: Any
-    ) -> Plan:
-        """One plan with this effort; `work`: engine, executor and progress of `plan`."""
-        return plan(model, values, rival, self.omega, self.rho, repeats=self.repeats, **work)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -70,8 +47,8 @@ def run(options: argparse.Namespace) -> int:
     effort = _effort(options, model, values, None)
     _warn(effort)
     with engine_for(options) as (engine, pool, progress):
-        the_plan = effort.planned(
-            model, values, rival, engine=engine, executor=pool, progress=progress
+        the_plan = _planned(
+            effort, model, values, rival, engine=engine, executor=pool, progress=progress
         )
         progress("spectrum", 0, 1)
         best = design(the_plan)
@@ -81,6 +58,13 @@ def run(options: argparse.Namespace) -> int:
     if options.out:
         _write(options, the_plan, best)
     return 0
+
+
+def _planned(
+    effort: Effort, model: AnyStructure, values: Parameters, rival: AnyStructure, **work: Any
+) -> Plan:
+    """One plan with this effort; `work`: engine, executor and progress of `plan`."""
+    return plan(model, values, rival, effort.omega, effort.rho, repeats=effort.repeats, **work)
 
 
 def _write(options: argparse.Namespace, the_plan: Plan, best: Design | None) -> None:
@@ -132,7 +116,7 @@ def _plans(
     """
     plans = list[tuple[Plan, Plan | None]]()
     with engine_for(options) as (engine, pool, progress):
-        planned = partial(effort.planned, engine=engine, executor=pool)
+        planned = partial(_planned, effort, engine=engine, executor=pool)
         for rival, values in named.rivals.items():
             progress("rival", len(plans), len(named.rivals))
             other_plan = planned(named.model, named.values, rival)
@@ -164,8 +148,6 @@ def _effort(
     named: AnyNamed | None,
 ) -> Effort:
     """From a number, a measured response, or the file of a fit."""
-    if options.lines is not None and options.lines < FEWEST:
-        raise InputError(f"at least {FEWEST} lines are needed, not {options.lines}")
     number = _number(options.noise)
     if (options.noise or "").endswith("%"):
         raise InputError("noise is written as a share: --noise 0.02 for 2 %")
@@ -173,14 +155,14 @@ def _effort(
         return _read_effort(options, model, values)
     if number is None and named is None:
         raise InputError("give the scatter of a line: --noise 0.02, or --noise FRF.csv")
-    low, high = options.band or ((named.low, named.high) if named else (0.0, 0.0))
-    if not 0 < low < high:
-        raise InputError("give the frequencies of the lines [Hz]: --band 5..300")
-    size = number if number is not None else named.scatter if named else 0.0
-    count = options.lines or (named.lines if named else 0) or LINES
-    source = "given" if number is not None else "of the fitted data"
-    omega, rho = 2 * np.pi * np.geomspace(low, high, count), np.full(count, size)
-    return Effort(omega, rho, source, options.repeats or 1)
+    band, lines, size = options.band, options.lines, number
+    if named is not None:
+        band, size = band or (named.low, named.high), named.scatter if size is None else size
+        lines = named.lines or None if lines is None else lines
+    effort = effort_of(
+        model, values, size or 0.0, band=band, lines=lines, repeats=options.repeats or 1
+    )
+    return effort if number is not None else replace(effort, source="of the fitted data")
 
 
 def _number(text: str | None) -> float | None:
@@ -192,26 +174,13 @@ def _number(text: str | None) -> float | None:
 
 def _read_effort(options: argparse.Namespace, model: AnyStructure, values: Parameters) -> Effort:
     """Lines and scatter of a measured response."""
-    if options.lines is not None:
-        raise InputError("the lines are those of the measured response: remove --lines")
     response = read(Path(options.noise))
-    is_machine = model.sort is Sort.MACHINE
-    response = response.to_quantity(sensor_of(model)) if is_machine else as_impedance(response)
-    for note in (*response.notes, *response.suspicions):
-        complain(note)
-    response = response.masked(*options.band) if options.band else response
-    responses = responses_of(model, values, response.omega)
-    if len(responses) > 1:
-        raise InputError(
-            f"{options.noise} is one response, {len(responses)} are planned: give the scatter of"
-            " a line, such as --noise 0.02 --band 5..300"
-        )
-    own_scatter = scatter(response, list(responses))
-    own = 1 + round((response.freedom or 0.0) / 2)
-    source = f"of {options.noise}, known from {own_scatter.source}"
-    return Effort(
-        response.omega, own_scatter.rho, source, options.repeats or min(own, MOST_REPEATS)
+    effort = effort_of(
+        model, values, response, band=options.band, lines=options.lines, repeats=options.repeats
     )
+    for note in effort.notes:
+        complain(note)
+    return replace(effort, source=f"of {options.noise}, {effort.source}")
 
 
 def _warn(effort: Effort) -> None:

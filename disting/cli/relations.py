@@ -1,5 +1,4 @@
-"""Functions that several commands share: options for conditions and views, and the output of
-relations, on a terminal in colour, always in words too.
+"""Output of relations that several commands share: on a terminal in colour, always in words too.
 
 Nothing is coloured where standard output is no terminal, where the environment variable NO_COLOR
 is set (https://no-color.org), and where TERM is dumb.
@@ -11,9 +10,8 @@ from collections import Counter
 from collections.abc import Iterable
 
 from disting.conditions.rule import RULES
-from disting.errors import InputError
 from disting.model.question import Domain
-from disting.verdict.result import Query, Relation, View
+from disting.verdict.result import Relation
 
 # bright enough on a dark ground, dark enough on a light one
 COLOURS = {
@@ -32,29 +30,6 @@ def in_colour(text: str, relation: Relation) -> str:
 def _is_wanted() -> bool:
     silent = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     return not silent and sys.stdout.isatty()
-
-
-VIEWS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
-
-
-def query(conditions: tuple[str, ...] | None, view: View, domain: str, markov: int = 0) -> Query:
-    """Over positive parameters where no domain ("") is named, but the paper's view, over complex
-    ones, where it is requested.
-
-    Conditions that are named decide alone: the exact decision belongs to the default.
-    """
-    paper = conditions is not None or view is not View.EXACT
-    domain = domain or (Domain.COMPLEX if paper else Domain.POSITIVE)
-    if domain != Domain.COMPLEX:
-        if paper:
-            raise InputError(
-                f"--domain {domain} is not supported with --conditions or --representation;"
-                " remove one of them"
-            )
-        return Query(View(domain), markov=markov)
-    if conditions is None:
-        return Query(view, markov=markov)
-    return Query(View.COMBINED if view is View.EXACT else view, conditions, markov)
 
 
 def relations_in_words(relations: Iterable[Relation]) -> str:

@@ -5,7 +5,14 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from disting.cli.arguments import add_damped, add_notation, add_quantity, quantity_word, refuse
+from disting.cli.arguments import (
+    add_damped,
+    add_notation,
+    add_old_option,
+    add_quantity,
+    quantity_word,
+    refuse,
+)
 from disting.cli.output import emit, written_file
 from disting.errors import InputError, short
 from disting.model.chain import Chain, Quantity, Sort
@@ -23,7 +30,7 @@ NUMBERS = (
     ("low", 10.0, "lowest excited frequency [Hz]"),
     ("high", 250.0, "highest excited frequency [Hz]"),
     ("rms", 1.0, "root mean square of the input"),
-    ("rate", 2500.0, "sampling rate [Hz]"),
+    ("sampling-rate", 2500.0, "sampling rate [Hz]"),
     ("input-noise", 0.0, "standard deviation of noise on the recorded input"),
     ("output-noise", 0.0, "standard deviation of noise on the recorded output"),
     ("quantum", 0.0, "step of the sensor"),
@@ -87,6 +94,7 @@ def _bench(p: argparse.ArgumentParser) -> None:
     for name, value, text in NUMBERS:
         text = f"{text} (default: {value:g})"
         p.add_argument(f"--{name}", type=float, default=value, metavar="X", help=text)
+    add_old_option(p, "--rate", "--sampling-rate", float)
     for name, count, text in COUNTS:
         text = f"{text} (default: {count})"
         p.add_argument(f"--{name}", type=int, default=count, metavar="K", help=text)
@@ -110,7 +118,7 @@ def run(options: argparse.Namespace) -> int:
         options.excitation, options.low, options.high, options.rms, spectrum=spectrum
     )
     bench = Bench(
-        sampling_rate=options.rate,
+        sampling_rate=options.sampling_rate,
         samples=options.samples,
         periods=options.periods,
         input_noise=options.input_noise,
@@ -119,7 +127,8 @@ def run(options: argparse.Namespace) -> int:
         friction={mass: Friction(coulomb=force) for mass, force in options.friction},
         seed=options.seed,
     )
-    lines = excitation.lines(options.samples, options.rate) * options.rate / options.samples
+    rate = options.sampling_rate
+    lines = excitation.lines(options.samples, rate) * rate / options.samples
     for name, series in _records(model, values, excitation, bench, options.csv):
         response = series.response(
             quantity, period=options.samples, lines=lines if spectrum else None

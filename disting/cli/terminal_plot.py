@@ -50,7 +50,11 @@ def bode_lines(
     size, phase = np.abs(response), np.degrees(np.unwrap(np.angle(response)))
     x = np.log(hertz)
     yield f"amplitude{f' [{unit}]' if unit else ''}"
-    ends = [f"{size.max():.3g}", f"{np.sqrt(size.max() * size.min()):.3g}", f"{size.min():.3g}"]
+    ends = [
+        f"{size.max():.3g}",
+        f"{np.sqrt(size.max()) * np.sqrt(size.min()):.3g}",
+        f"{size.min():.3g}",
+    ]
     yield from _frame_rows(curve(x, np.log(size), room, 9, signs), ends, signs)
     yield "phase [deg]"
     middle = (phase.max() + phase.min()) / 2

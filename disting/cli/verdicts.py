@@ -1,7 +1,7 @@
 """disting verdicts: all pairs of one size, of several sizes together, or of a file of models."""
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import combinations
 from pathlib import Path
 
@@ -20,7 +20,7 @@ from disting.cli.arguments import (
     whole,
 )
 from disting.cli.output import emit, keep_apart, written_file
-from disting.cli.relations import VIEWS, query, relations_in_words, rules_in_words
+from disting.cli.relations import relations_in_words, rules_in_words
 from disting.cli.workers import (
     announce,
     announce_pairs,
@@ -30,22 +30,20 @@ from disting.cli.workers import (
     told_if_long,
 )
 from disting.conditions.inclusion import ONE_SIDED, Sense
-from disting.conditions.side import AnySide
 from disting.errors import InputError, in_row
 from disting.general.any_model import of_network
 from disting.general.model_files import ModelList, read_models
 from disting.general.naming import has_free_name
-from disting.model.chain import Quantity
+from disting.model.chain import Chain, Quantity
 from disting.model.names import damping_option
 from disting.model.presentation import plural
 from disting.network.denotation import FREE_NAMES
 from disting.network.families import family_of
-from disting.verdict.comparison import prove_all
 from disting.verdict.decisions import Decisions
-from disting.verdict.engine import Engine
 from disting.verdict.joint import family_safety, joint_in_words
-from disting.verdict.result import Relation
+from disting.verdict.result import REPRESENTATIONS, Relation, query_of
 from disting.verdict.sides import refuse_ports
+from disting.verdict.verdict_list import decide_all, subjects_of
 
 MOST_TOLD = 20  # pairs that are told one by one
 LISTS = "a family of networks such as machines-3 (the end of 'disting models --help' lists them)"
@@ -66,7 +64,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_quantity(parser)
     add_deciding(parser)
     text = "representation that may decide (default: all)"
-    parser.add_argument("--representation", choices=VIEWS, default="all", help=text)
+    parser.add_argument("--representation", choices=REPRESENTATIONS, default="all", help=text)
     text = "Markov parameters G_0 and G_1..G_K to use (default: all that are needed)"
     parser.add_argument("--markov", type=whole(1), default=0, metavar="K", help=text)
     add_work(parser)
@@ -78,9 +76,7 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(
             "one of --csv and --json can be standard output, not both: name a file for the other"
         )
-    wanted = query(
-        options.conditions, VIEWS[options.representation], options.domain, options.markov
-    )
+    wanted = query_of(options.conditions, options.domain, options.representation, options.markov)
     file = options.masses if isinstance(options.masses, Listed) else None
     if file:
         refuse_chain_options(options)
@@ -90,14 +86,12 @@ def run(options: argparse.Namespace) -> int:
     with engine_for(options) as (engine, pool, progress):
         if isinstance(file, str):
             recall(file, engine)
-        subjects: Sequence[AnySide] = (
-            engine.general_subjects(models.models) if models else _of_sizes(options, engine)
-        )
+        subjects = subjects_of(models.models if models else _chains(options), engine)
         if file and file not in SHIPPED:
             announce_pairs(str(file), subjects, wanted, engine, options.jobs)
-        decided = engine.decisions(subjects, wanted, executor=pool, progress=progress)
-        if options.prove:
-            decided = prove_all(decided, progress=progress)
+        decided = decide_all(
+            subjects, wanted, engine, prove=options.prove, executor=pool, progress=progress
+        )
     if options.csv:
         emit(options.csv, decisions_csv(decided))
     if options.json:
@@ -146,12 +140,11 @@ def list_of(source: Listed) -> ModelList:
     return models
 
 
-def _of_sizes(options: argparse.Namespace, engine: Engine) -> Sequence[AnySide]:
+def _chains(options: argparse.Namespace) -> list[Chain]:
     """Numbered chains, N:I."""
-    named = combined_family(
-        options.masses, damped=is_damped(options), quantity=Quantity(options.quantity)
-    )
-    return [engine.subject(name, chain) for name, chain in named]
+    quantity = Quantity(options.quantity)
+    named = combined_family(options.masses, damped=is_damped(options), quantity=quantity)
+    return [chain for _, chain in named]
 
 
 def _summary(decided: Decisions) -> str:

@@ -12,7 +12,7 @@ from enum import StrEnum
 from typing import Self
 
 from disting.algebra.certainty import Certainty, weakest, withhold
-from disting.errors import ContradictionError
+from disting.errors import ContradictionError, InputError, short
 from disting.evidence.kinds import Evidence, evidence_from
 from disting.evidence.positive import BothWays, PositiveFinding, Share
 from disting.model.presentation import summary
@@ -140,6 +140,25 @@ NOT_REAL = (
     "over real parameters no rational map is known, real factors are not known to exist or to lack,"
     " and the numbers of equivalents are not odd or not known"
 )
+
+
+def condition_names(text: str) -> tuple[str, ...]:
+    """Return names of conditions from text such as 1-5,8, in the order of the table; raises
+    InputError.
+
+    >>> condition_names("8,1-3")
+    ('1', '2', '3', '8')
+    """
+    names = [rule.name for rule in RULES.values() if rule.is_condition]
+    chosen = set[str]()
+    for part in text.split(","):
+        low, dash, high = part.strip().partition("-")
+        high = high if dash else low
+        if not {low, high} <= set(names) or names.index(high) < names.index(low):
+            offered = f"the conditions {names[0]} to {names[-1]}"
+            raise InputError(f"conditions are written like 1-5,8, of {offered}, not {short(text)}")
+        chosen |= set(names[names.index(low) : names.index(high) + 1])
+    return tuple(name for name in names if name in chosen)
 
 
 class Outcome(StrEnum):

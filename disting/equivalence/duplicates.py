@@ -10,7 +10,7 @@ from disting.algebra.symbols import text
 from disting.equivalence.closed_forms import MOST_SOLVED, by_name
 from disting.errors import ContradictionError, InputError, enumeration, of_type
 from disting.evidence.general import Explicit
-from disting.experiments.menu import Costs
+from disting.experiments.menu import Costs, as_costs
 from disting.files import Format
 from disting.general import AnyModel
 from disting.general.any_model import as_chain, given_model, on_one_variable
@@ -23,6 +23,8 @@ from disting.model.names import read_together
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.model.question import Domain
 from disting.network.notation import network_of, notations_of
+from disting.renamed import renamed
+from disting.verdict.comparison import asked_of
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine
 from disting.verdict.identifiable import Identified, identify
@@ -155,19 +157,22 @@ class Gate(NotebookTable):
         }
 
 
+@renamed(costs="cost")
 def gate(
     models: Sequence[Given],
     *,
+    domain: Domain | str | None = None,
     query: Query | None = None,
-    costs: Costs | None = None,
+    cost: Costs | Mapping[str, float] | str | None = None,
     engine: Engine | None = None,
 ) -> Gate:
     """Select the models that are worth a fit: chains, networks or texts for them, models.
 
     Of models that are the same over positive values (or in the domain of the query) the one with
     the fewest parameters is kept, among those the first. Two models that are no chains have one
-    number of inputs and outputs. The next measurement is given where a group consists of networks
-    of one kind, or of chains of one size. Raises InputError.
+    number of inputs and outputs. `domain`: "complex", "real" or "positive" parameters; `cost` of
+    experiments, as of `next_experiments`. The next measurement is given where a group consists of
+    networks of one kind, or of chains of one size. Raises InputError.
 
     >>> found = gate(["R0-p(R1,C1)", "p(R0,R1-C1)", "R0-p(R1,C1)-p(R2,C2)"])
     >>> found.kept
@@ -175,7 +180,7 @@ def gate(
     >>> dict(found.duplicates[0].formulas[0].values)["R1"]
     '(R0**2 + R0*R1)/R1'
     """
-    engine = Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
+    asked, engine = asked_of(query, engine, domain)
     listed = of_type(models, Iterable, "the models are a list of models")
     made = [_number(model_of(m), m, i) for i, m in enumerate(listed, 1)]
     again = [m.name for i, m in enumerate(made) if m.name in {x.name for x in made[:i]}]
@@ -186,7 +191,7 @@ def gate(
             else "there are no models"
         )
     refuse_ports(made)
-    wanted = query or Query(inclusion=False)
+    wanted, costs = asked if query else replace(asked, inclusion=False), as_costs(cost)
     subjects = engine.general_subjects(made)
     decided, matched = engine.decisions(subjects, wanted), [s.subject for s in subjects]
     sizes = [len(m.parameters) for m in made]
@@ -257,7 +262,7 @@ def _assignments(forms: Iterable[ClosedForm]) -> tuple[Assignment, ...]:
     )
 
 
-def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs | None) -> AnyMenu | None:
+def _menu(models: Sequence[AnyModel], engine: Engine, costs: Costs) -> AnyMenu | None:
     """Menu of further measurements, where all are networks of one kind or chains of one size."""
     chains = [as_chain(m) for m in models]
     pairs = list(zip(models, chains, strict=True))

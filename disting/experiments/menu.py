@@ -176,3 +176,12 @@ def _multiply_by_power(p: nmod_poly, by: int) -> nmod_poly:
 
 def _key_of(entry: Entry) -> tuple[object, ...]:
     return entry.ports, entry.sensor_order
+
+
+def as_costs(cost: Costs | Mapping[str, float] | str | None) -> Costs:
+    """Costs from a dict by kind, or from text such as "sensor=3,lock=1"; the usual ones for None.
+    Raises InputError.
+    """
+    if isinstance(cost, Costs):
+        return cost
+    return Costs.read(cost) if isinstance(cost, str) else Costs(cost or {})

@@ -73,9 +73,11 @@ True
 
 The names by subject. Candidates, and the fit:
 
+    candidates                    chains to fit, as the options of disting fit name them
     figure_1, whole_family        candidate structures by size
     chosen_ports, variants        those with given ports; dampers, lag, dead time of one structure
     select                        fit candidates to measured responses
+    fit_networks                  fit circuits, compartments or machines that branch
     FurtherResponse, Setup        a further response of the machine; how one was measured
     Case, Thresholds, Rule        which residuals; limits of the criteria; who may be selected
     lines_by_coherence, lines_by_deviation   weights of the lines
@@ -142,6 +144,7 @@ if TYPE_CHECKING:
         zeros as zeros,
     )
     from disting.fit.judge.readings import QuantityReading as QuantityReading, Reading as Reading
+    from disting.fit.networks import fit_networks as fit_networks
     from disting.fit.results.loop import (
         Controller as Controller,
         Margins as Margins,
@@ -159,6 +162,7 @@ if TYPE_CHECKING:
         sweep as sweep,
     )
     from disting.fit.search.candidates import (
+        candidates as candidates,
         chosen_ports as chosen_ports,
         figure_1 as figure_1,
         variants as variants,

@@ -35,6 +35,7 @@ from disting.fit.search.data import WhitenedCost, check_range
 from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.estimate import NESTED, NOTHING, REACHED
 from disting.fit.search.joint import AnyCost, JointCost
+from disting.fit.search.machines import each_once, with_ground_damper
 from disting.fit.search.network_plant import (
     AnyNetworkPlant,
     is_lossless,
@@ -48,6 +49,8 @@ from disting.measurement.arrays import Real
 from disting.measurement.response import NO_MOTION
 from disting.model.chain import Sort
 from disting.network.network import Network
+from disting.network.notation import network_of
+from disting.renamed import renamed
 from disting.statistics.covariance import expected_deviation
 from disting.statistics.scatter import Scatter
 from disting.verdict.decisions import Decisions
@@ -78,27 +81,34 @@ class BestFit:
         return sum(cost <= self.j * (1 + REACHED) + NOTHING for cost in self.costs)
 
 
+@renamed(networks="models")
 def fit_networks(
     measured: FrequencyResponse | Sequence[FrequencyResponse],
-    networks: Sequence[Network],
+    models: Sequence[Network | str],
     *,
+    notation: str = "",
+    ground_damper: bool = False,
     engine: Engine | None = None,
     progress: Progress = silent,
 ) -> NetworkSelection:
     """Fit networks to a measured response, or to several: those of the first sensor to all inputs,
-    then those of the next one, as a `MatrixModel` has its rows. `measured.sensor` is the quantity
-    of sensors of machines; circuits give an impedance. Raises InputError.
+    then those of the next one, as a `MatrixModel` has its rows. `measured.quantity` is that of
+    the sensors of machines; circuits give an impedance.
+
+    `models`: networks, or texts of them such as "R0-p(R1,C1)", in this `notation` where the text
+    does not show it; `ground_damper`: each machine also with a damper from the mass with the force
+    to the ground. Raises InputError.
 
     >>> import numpy as np
-    >>> from disting.network import network_of
     >>> omega = np.logspace(0, 4, 60)
     >>> noisy = 1 + 1e-3 * np.random.default_rng(1).normal(size=(60, 2)) @ [1, 1j]
     >>> cell = FrequencyResponse(omega, (1 + 2 / (1 + 0.02j * omega)) * noisy, quantity="position")
-    >>> candidates = [network_of(t) for t in ("R1-C1", "R0-p(R1,C1)", "p(R0,R1-C1)")]
-    >>> fit_networks(cell, candidates).sentence[:69]
+    >>> fit_networks(cell, ["R1-C1", "R0-p(R1,C1)", "p(R0,R1-C1)"]).sentence[:69]
     'R0-p(R1,C1) is the simplest that explains the data, which cannot be d'
     """
     data = [measured] if isinstance(measured, FrequencyResponse) else list(measured)
+    networks = [network_of(m, notation) if isinstance(m, str) else m for m in models]
+    networks = each_once(with_ground_damper(networks)) if ground_damper else networks
     compared = _match_quantity(data, networks)
     engine = engine or Engine()
     subjects = engine.general_subjects(compared)

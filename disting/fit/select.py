@@ -7,10 +7,12 @@ lines gives a cost that orders candidates. What comes out is a set, of which one
 (`members`), after the question whether any candidate explains the data at all (`explanation`).
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
+from disting.errors import InputError, enumeration, short
 from disting.fit.judge.admissible import Rule, reasons
 from disting.fit.judge.alternatives import (
     Alternative,
@@ -37,16 +39,16 @@ from disting.fit.judge.joint_verdicts import (
 from disting.fit.judge.members import Member, members
 from disting.fit.judge.outside import Outside, machines_outside
 from disting.fit.judge.readings import Reading, better_sign, pilot, quantity_readings, readings
-from disting.fit.results.loop import Controller
+from disting.fit.old_names import accept_old_names
+from disting.fit.results.loop import Controller, read_controller
 from disting.fit.results.reliance import statements
 from disting.fit.results.selection import Selection
-from disting.fit.search.cost import Case, Cost
-from disting.fit.search.data import Weights, check
+from disting.fit.search.cost import Case, Cost, lines_by_coherence, lines_by_deviation
+from disting.fit.search.data import Lines, Weights, check
 from disting.fit.search.estimate import Estimate, Method, Task, one_thread
 from disting.fit.search.exchange import SEARCHED, body, estimates, polish
-from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost
+from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost, with_dead_times
 from disting.measurement import FrequencyResponse
-from disting.measurement.arrays import Real
 from disting.measurement.assumptions import as_shown
 from disting.model.chain import Chain, Quantity, as_quantity
 from disting.model.question import Settings
@@ -55,9 +57,11 @@ from disting.store import Store
 from disting.verdict.engine import Engine, Progress, silent
 
 CROSS_VALIDATION = f"{FOLDS}-fold cross-validation over the frequency lines"
+T = TypeVar("T")
 MOST_LINES = 10_000  # of a response that are fitted, unless more are asked for
 
 
+@accept_old_names
 @one_thread()
 def select(
     train: FrequencyResponse,
@@ -65,22 +69,23 @@ def select(
     *,
     test: FrequencyResponse | None = None,
     quantity: Quantity | str | None = None,
+    band: tuple[float, float] | None = None,
+    lines: int = MOST_LINES,
     further: Sequence[FurtherResponse] = (),
     home: Chain | None = None,
-    alike: bool = False,
-    thresholds: Thresholds | None = None,
-    rule: Rule = Rule.NOT_EXCLUDED,
-    case: Case | None = None,
-    weights: tuple[float, float] | None = None,
-    lines: Callable[[FrequencyResponse], Real] | None = None,
-    sign: int = 1,
-    bounds: Mapping[str, tuple[float, float]] | None = None,
-    fixed: Mapping[str, float] | None = None,
+    dead_time: str = "shared",
+    weights: str | Lines = "auto",
+    thresholds: Thresholds | tuple[float, float, float] | None = None,
+    rule: Rule | str = Rule.NOT_EXCLUDED,
+    case: Case | int | None = None,
+    case_weights: tuple[float, float] | None = None,
+    sign: int | str = 1,
+    bound: Mapping[str, tuple[float, float]] | None = None,
+    fix: Mapping[str, float] | None = None,
     seed: str = "disting",
     prune: bool = True,
-    most_lines: int = MOST_LINES,
-    controller: Controller | None = None,
-    method: Method | None = None,
+    controller: Controller | str | None = None,
+    optimiser: str | Method = "starts",
     engine: Engine | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
@@ -90,14 +95,19 @@ def select(
     Parameters are those of the highest likelihood: the search is by logarithms, whose costs have
     few valleys, the last digits are found in the complex plane in units of what each line scatters
     (`Cost.likely`), where noise is normal however small a response is compared with it. A cost of
-    the paper is kept to the end where one is named: by its `case`, by `weights` of amplitude and
-    phase, see `Cost`, by the weights that `lines` gives, such as `lines_by_deviation`, or if all
-    lines count `alike`; `sign` -1: the sensor is reversed, 0: whichever fits better. `bounds` and
-    `fixed` by parameter name. `prune`: candidates with the same positive models, within `bounds`
-    and `fixed`, are fitted once; `most_lines`: of a response with more so many are fitted, and its
-    `reading` states it; `controller`: one whose margins are reported (`reliance`); `method` as in
-    `estimates`. An engine with a store resumes interrupted work. Raises InputError, also for an
-    impedance, to which no chain is fitted.
+    the paper is kept to the end where one is named: by its `case` (1, 2 or 3), by `case_weights` of
+    amplitude and phase, see `Cost`, or by `weights` of the lines: "std", "coherence", a function of
+    the response such as `lines_by_deviation`, shape (n_f,), or "none", by which all lines count
+    alike (default "auto": by the scatter of each, if known). `sign` -1 or "-": the sensor is
+    reversed, 0 or "auto": whichever fits better. `bound` and `fix`: ranges and values by parameter
+    name, in SI units. `prune`: candidates with the same positive models, within `bound` and `fix`,
+    are fitted once. `band`: lowest and highest frequency that are used [Hz]; `lines`: of a response
+    with more so many are fitted, and its `reading` states it. `controller`: one whose margins are
+    reported (`reliance`), also as text such as "P=2,I=30". `optimiser`: "starts", the paper's
+    "swarm", or a method as in `estimates`. `thresholds`: largest condition index, PII ratio and
+    collinearity index; `rule`: "not-excluded" or "paper"; `seed` of the random starts. An
+    engine with a store resumes interrupted work. Raises InputError, also for an impedance, to which
+    no chain is fitted, and for names in `bound` and `fix` that no candidate has.
 
     `quantity` of the sensor, "position", "velocity" or "acceleration": what `train` and `test`
     show, whatever they were read as, and what the candidates answer with (default: as they are).
@@ -107,28 +117,82 @@ def select(
     `further`: responses of the same machine that are fitted together with `train`, one parameter
     vector for all; each counts in units of its own scatter (`Weights`). Candidates without their
     places are left out, and a response that is zero in every candidate: nothing is learned from it.
-    `home`: the chain whose masses the places of `further` name; of a candidate with other masses,
-    springs or ports every choice of places is fitted, and the best is taken
-    (`joint_verdicts.locate`).
+    `dead_time` of these: "shared", or "own", one for each, called Td2, Td3 and so on. `home`: the
+    chain whose masses the places of `further` name; of a candidate with other masses, springs or
+    ports every choice of places is fitted, and the best is taken (`joint_verdicts.locate`).
     """
     if quantity is not None:
         shown = as_quantity(quantity)
         train, test = as_shown(train, shown), test and as_shown(test, shown)
         candidates = [replace(c, quantity=shown) for c in candidates]
-    train, test, further = check(train, test, further, candidates, most_lines)
+    further = with_dead_times(further, dead_time)
+    if band is not None:
+        train, test = train.masked(*band), test and test.masked(*band)
+        further = [extra.masked(*band) for extra in further]
+    train, test, further = check(train, test, further, candidates, lines)
+    _check_names(candidates, further, (*(fix or {}), *(bound or {})))
     candidates, further, zero = informative(candidates, further, home)
     work = Work(engine or Engine(store=Store.none()), executor, progress)
-    weighing = Weights(Cost(train, case or Case.LOGARITHM, weights), test, further, lines, alike)
-    task = Task(weighing.training(), sign or 1, bounds or {}, fixed or {}, seed)
-    task = task if sign else better_sign(task, _at_home(candidates, home))
+    case = None if case is None else Case(case)
+    cost = Cost(train, case or Case.LOGARITHM, case_weights)
+    weighing = Weights(cost, test, further, _lines_of(weights), weights == "none")
+    number = _one_of("sign", sign, SIGNS) if isinstance(sign, str) else sign
+    task = Task(weighing.training(), number or 1, bound or {}, fix or {}, seed)
+    task = task if number else better_sign(task, _at_home(candidates, home))
     task = locate(task, candidates, home, work.engine.store) if home else task
     search, judging = _weigh_by_trial(task, candidates, weighing)
     same_as = _find_represented(candidates, search, work.engine) if prune else {}
     fitted = [c for c in candidates if c not in same_as]
-    likely = weighing.by_scatter and case is None and weights is None
-    fits = _fits(fitted, search, judging, likely, method, work)
-    terms = Terms(thresholds or Thresholds(), rule, controller)
+    likely = weighing.by_scatter and case is None and case_weights is None
+    fits = _fits(fitted, search, judging, likely, _method(optimiser), work)
+    terms = _terms(thresholds, rule, controller)
     return _selection(fits, terms, candidates, same_as, tuple(zero), work)
+
+
+WEIGHTS: dict[str, Lines | None] = {
+    "auto": None,
+    "none": None,
+    "std": lines_by_deviation,
+    "coherence": lines_by_coherence,
+}
+SIGNS = {"+": 1, "-": -1, "auto": 0}
+
+
+def _one_of(name: str, word: str, table: Mapping[str, T]) -> T:
+    """The entry of an option's word; raises InputError for another word."""
+    if word not in table:
+        raise InputError(f"{name} is one of {', '.join(table)}, not {short(word)}")
+    return table[word]
+
+
+def _lines_of(weights: str | Lines) -> Lines | None:
+    """The function that weighs the lines of a response; None for their scatter, and for none."""
+    return _one_of("weights", weights, WEIGHTS) if isinstance(weights, str) else weights
+
+
+def _method(optimiser: str | Method) -> Method | None:
+    """The search of that name, None for the usual one; raises InputError."""
+    if not isinstance(optimiser, str):
+        return optimiser
+    if not _one_of("optimiser", optimiser, {"starts": False, "swarm": True}):
+        return None
+    from disting.fit.search.swarm import by_swarm  # with a library that few runs need
+
+    return by_swarm
+
+
+def _check_names(
+    candidates: Sequence[Chain], further: Sequence[FurtherResponse], named: Sequence[str]
+) -> None:
+    """Raise InputError for names that are parameters of no candidate and of no response."""
+    names = {name for chain in candidates for name in chain.parameters}
+    names |= {extra.setup.delay for extra in further} - {""}
+    unknown = [name for name in dict.fromkeys(named) if name not in names]
+    if unknown:
+        raise InputError(
+            f"no candidate has a parameter {enumeration(unknown)}; their parameters are"
+            f" {enumeration(sorted(names))}"
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +211,18 @@ class Terms:
     thresholds: Thresholds
     rule: Rule
     controller: Controller | None
+
+
+def _terms(
+    thresholds: Thresholds | tuple[float, float, float] | None,
+    rule: Rule | str,
+    controller: Controller | str | None,
+) -> Terms:
+    """The criteria, from text where they are text; raises InputError."""
+    limits = Thresholds(*thresholds) if isinstance(thresholds, tuple) else thresholds
+    the_rule = Rule(_one_of("rule", rule, {r.value: r for r in Rule}))
+    law = read_controller(controller) if isinstance(controller, str) else controller
+    return Terms(limits or Thresholds(), the_rule, law)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ Which signals of a record are input and output, from their names.
 
 import inspect
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Unpack, cast
@@ -14,7 +14,9 @@ from disting.errors import InputError, enumeration
 from disting.files import write_whole
 from disting.measurement.formats import FORMATS, Format, Options, Records, format_of
 from disting.measurement.options import ReadOptions, RecordOptions
+from disting.measurement.repeats import mean_of
 from disting.measurement.response import FrequencyResponse, Signal
+from disting.measurement.scaling import in_units, reader_units
 from disting.measurement.source import Source, source
 from disting.measurement.tabular import ESCAPED, MARK
 from disting.measurement.time_series import TimeSeries
@@ -90,7 +92,15 @@ def _line(text: str) -> str:
 
 
 @renamed(sensor="quantity")
-def read(path: str | Path, **options: Unpack[ReadOptions]) -> FrequencyResponse:
+def read(
+    path: str | Path,
+    *,
+    repeat: Sequence[str | Path] = (),
+    unit: Mapping[str, str] | None = None,
+    scale: float | None = None,
+    torque_constant: float | None = None,
+    **options: Unpack[ReadOptions],
+) -> FrequencyResponse:
     """Frequency response from a file; `suspicions` and `notes` of the result state what should be
     checked.
 
@@ -107,8 +117,15 @@ def read(path: str | Path, **options: Unpack[ReadOptions]) -> FrequencyResponse:
     options and those of `TimeSeries.response` (`period`, `transient`, `lines`, `band`, `segment`,
     `least_coherence`, `trend`) are then accepted; `quantity` is that of the recorded output, `to`
     the one wanted. `hold`, of every file: the time for which a digital drive holds its input [s]
-    (`FrequencyResponse.held`), of a time series also "record". Raises InputError for a file or an
-    option that cannot be understood.
+    (`FrequencyResponse.held`), of a time series also "record".
+
+    `repeat`: further files with the same response, of which the mean is taken, `outliers` as of
+    `mean_of`;
+    `unit`: units by name ("frequency", "phase", "magnitude", "input", "output") that the file does
+    not state, such as {"output": "deg"}; `scale`: a factor, such as the gain of the sensor;
+    `torque_constant` [Nm/A or N/A], where the input is a current. With any of the last three the
+    response is in SI units, as `disting fit` reads it; without them it is as in the file. Raises
+    InputError for a file or an option that cannot be understood.
 
     >>> from tempfile import TemporaryDirectory
     >>> lines = ["frequency [Hz],re,im", *(f"{f},1,{f}" for f in range(1, 20))]
@@ -118,10 +135,22 @@ def read(path: str | Path, **options: Unpack[ReadOptions]) -> FrequencyResponse:
     ...     len(read(file)), read(file, quantity="velocity", sign=-1).G[0]
     (19, np.complex128(-1-1j))
     """
+    named = cast("Options", options) | reader_units(unit or {})
+    if repeat:
+        outliers = str(named.pop("outliers", "keep"))
+        response = mean_of([_read_one(file, named) for file in (path, *repeat)], outliers=outliers)
+    else:
+        response = _read_one(path, named)
+    if unit is None and scale is None and torque_constant is None:
+        return response
+    return in_units(response, unit or {}, scale, torque_constant)
+
+
+def _read_one(path: str | Path, options: Options) -> FrequencyResponse:
+    """The response of one file; raises InputError."""
     file = source(path)
-    named = cast("Options", options)
-    record = open_record(file, named)
-    return record[1]() if record else read_response(file, named)
+    record = open_record(file, options)
+    return record[1]() if record else read_response(file, options)
 
 
 def beginnings(path: str | Path, columns: Sequence[str] | None = None) -> tuple[int, ...] | None:

@@ -4,7 +4,7 @@ What a fit refuses for its content can still be shown: the columns as far as the
 and the reason of the refusal among the doubts.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Unpack, cast
@@ -32,6 +32,7 @@ from disting.measurement.look_text import look_lines
 from disting.measurement.options import LookOptions
 from disting.measurement.repeats import mean_of
 from disting.measurement.response import FrequencyResponse
+from disting.measurement.scaling import in_units, reader_units
 from disting.measurement.source import Source, source
 from disting.measurement.tabular import ASSUMED_LINEAR
 from disting.measurement.time_series import TimeSeries
@@ -231,16 +232,18 @@ def look(
     *,
     repeat: Sequence[str | Path] = (),
     outliers: str = "keep",
+    unit: Mapping[str, str] | None = None,
+    scale: float | None = None,
+    torque_constant: float | None = None,
     changes: Sequence[Change] = (),
     **options: Unpack[LookOptions],
 ) -> Look:
     """Return a measured file as it is read, with what is assumed and what is in doubt.
 
-    `options` as for `read`; `repeat`: further files with the same response, of which the mean is
-    taken, `outliers` as in `mean_of`; `changes`: applied to the response one after the other, such
-    as `in_si` or a band. What a fit refuses is shown as far as it is understood, the reason among
-    the doubts. Raises InputError for a file that is absent or cannot be parsed, and for an unknown
-    option.
+    `repeat`, `unit`, `scale`, `torque_constant` and `options` as for `read`, `outliers` as in
+    `mean_of`; `changes`: applied then to the response one after the other, such as a band. What a
+    fit refuses is shown as far as it is understood, the reason among the doubts. Raises InputError
+    for a file that is absent or cannot be parsed, and for an unknown option.
 
     >>> from tempfile import TemporaryDirectory
     >>> rows = ["f [Hz],Re,Im", *(f"{f},1,{f}" for f in range(1, 20))]
@@ -254,7 +257,7 @@ def look(
     'quantity acceleration; if not, give --quantity position or --quantity velocity'
     """
     file, refusals = source(path), list[str]()
-    named = cast("Options", options)
+    named = cast("Options", options) | reader_units(unit or {})
     named |= {"outliers": outliers} if outliers != "keep" and not repeat else {}
     record, response = _attempt(file, named, refusals)
     if response is not None and repeat:
@@ -264,9 +267,11 @@ def look(
         refusals.append(IMPEDANCE)
         response = as_impedance(response)
     if response is not None:
+        if any(x is not None for x in (unit, scale, torque_constant)):
+            changes = [lambda own: in_units(own, unit or {}, scale, torque_constant), *changes]
         response = _apply_changes(response, changes, refusals)
     looked = Look(file.name, columns, response, record, refusals=tuple(refusals))
-    return _with_statistics(looked, named, bool(repeat))
+    return name_units(_with_statistics(looked, named, bool(repeat)), unit or {})
 
 
 def look_at(
@@ -289,7 +294,7 @@ def look_at(
     return _with_statistics(looked, {}, is_mean=False)
 
 
-def name_units(seen: Look, units: dict[str, str]) -> Look:
+def name_units(seen: Look, units: Mapping[str, str]) -> Look:
     """Return the same with units of input and output that the caller gives."""
     columns = seen.columns
     for name, role in (("input", Role.INPUT), ("output", Role.OUTPUT)):

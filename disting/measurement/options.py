@@ -7,6 +7,9 @@ from typing import TypedDict
 
 from disting.model.chain import Quantity
 
+UNITS = ("frequency", "phase", "magnitude", "input", "output")
+"""What has a unit in a file."""
+
 
 class _Shown(TypedDict, total=False):
     """Sensor quantity, and its sign: -1 for a reversed sensor."""

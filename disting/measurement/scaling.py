@@ -8,12 +8,14 @@ Hz. In a file of the other unit these are 0.628, 1.257, ... So a grid that is ro
 by 2 pi, and is not round itself, is in rad/s.
 """
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from disting.errors import InputError, enumeration, short
 from disting.measurement.arrays import Real, apply
+from disting.measurement.options import UNITS
 from disting.measurement.response import ASSUMED_ACCELERATION, FrequencyResponse
 from disting.measurement.units import (
     FREQUENCIES,
@@ -166,6 +168,32 @@ def scale(response: FrequencyResponse, factor: float) -> FrequencyResponse:
             f"a scale is a positive number, not {factor:g}; a reversed sensor is --sign=-"
         )
     return _scale_response(response, factor)
+
+
+def in_units(
+    response: FrequencyResponse,
+    unit: Mapping[str, str],
+    scale_by: float | None,
+    torque_constant: float | None,
+) -> FrequencyResponse:
+    """The response times a factor, in SI units, `unit` naming those of "input" and "output" that
+    the file does not; per torque where the input is a current. Raises InputError.
+    """
+    response = response if scale_by is None else scale(response, scale_by)
+    response = in_si(response, input=unit.get("input"), output=unit.get("output"))
+    return response if torque_constant is None else with_constant(response, torque_constant)
+
+
+def reader_units(unit: Mapping[str, str]) -> dict[str, str]:
+    """The options of a reader that name units; raises InputError for a unit of something else.
+
+    >>> reader_units({"phase": "rad", "output": "deg"})
+    {'phase_unit': 'rad'}
+    """
+    unknown = [name for name in unit if name not in UNITS]
+    if unknown:
+        raise InputError(f"a unit is one of {', '.join(UNITS)}, not of {short(unknown[0])}")
+    return {f"{name}_unit": unit[name] for name in UNITS[:3] if name in unit}
 
 
 def _to_unit(

@@ -88,7 +88,8 @@ class Family(NotebookTable):
     """The chains with `n_masses` masses, in the order of (n_gap, n_act-, n_act+, n_meas-, n_meas+).
 
     The sizes for N_B = 1..8 are 1, 3, 11, 29, 73, 157, 314, 574 (Table 2 and its continuation). As
-    where a model is named, springs have dampers in parallel unless `damped` is False.
+    where a model is named, springs have dampers in parallel unless `damped` is False. The sensor
+    shows `quantity`.
 
     >>> len(Family(3)), Family(3)[4].parameters
     (11, ('m1', 'm2', 'm3', 'k12', 'k23', 'd12', 'd23'))

@@ -45,6 +45,7 @@ from scipy.optimize import brentq
 from scipy.stats import ncx2
 
 from disting.conditions.inclusion import Inclusion
+from disting.errors import InputError
 from disting.files import Format
 from disting.fit.judge.exclusion import LEVEL, basis_of, limit, surplus, trials, union
 from disting.fit.search.containment import contains
@@ -53,6 +54,7 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain
 from disting.model.presentation import NotebookTable, summary
 from disting.network.network import Network
+from disting.planning.effort import Effort, effort_of
 from disting.planning.rival import (
     AnyStructure,
     Rival,
@@ -272,19 +274,35 @@ def plan(
     model: AnyStructure,
     values: Mapping[str, float],
     rival: AnyStructure,
-    omega: Real,
-    rho: Real,
+    omega: Real | None = None,
+    rho: Real | None = None,
     *,
+    noise: float | FrequencyResponse | None = None,
+    band: tuple[float, float] | None = None,
+    lines: int | None = None,
     repeats: int | None = None,
     engine: Engine | None = None,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> Plan:
-    """Power of data of `model` with these parameters against `rival`, at angular frequencies
-    [rad/s] whose lines scatter by `rho`, shape (n_f,) each, which a fit finds from so many
-    `repeats` (module `sample`), or knows (None). Raises InputError for missing, unknown or negative
-    values (not required where both are equivalent), and for a chain together with a network.
+    """Power of data of `model` with these parameters against `rival`.
+
+    The data: `lines` in a `band` [Hz] (default: 120), evenly spaced on a logarithmic scale, of
+    relative noise `noise`; or the lines of a measured response `noise`, with their scatter; or
+    angular frequencies `omega` [rad/s] whose lines scatter by `rho`, shape (n_f,) each. A fit finds
+    the scatter from so many `repeats` (module `sample`), by default those of a measured response,
+    else it knows it (None). Raises InputError for data that are named in two ways or not at all,
+    for missing, unknown or negative values (not required where both are equivalent), and for a
+    chain together with a network.
     """
+    if noise is None and omega is not None and rho is not None and not (band or lines):
+        effort = Effort(omega, rho, "given", repeats)
+    elif noise is not None and omega is None and rho is None:
+        effort = effort_of(model, values, noise, band=band, lines=lines, repeats=repeats)
+    else:
+        raise InputError(
+            "give the data to plan for as noise=0.02, band=(5, 300), or as omega and rho"
+        )
     engine = engine or Engine()
     rival = shown_as(rival, sensor_of(model))
     verdict = compare(model, rival, engine=engine) if model != rival else None
@@ -294,13 +312,13 @@ def plan(
         model,
         values,
         rival,
-        omega,
-        rho,
+        effort.omega,
+        effort.rho,
         store=engine.store,
         executor=executor,
         progress=progress,
     )
-    return Plan(model, values, rival, verdict, _surplus(model, rival, engine), fit, repeats)
+    return Plan(model, values, rival, verdict, _surplus(model, rival, engine), fit, effort.repeats)
 
 
 def _surplus(model: AnyStructure, rival: AnyStructure, engine: Engine) -> int:

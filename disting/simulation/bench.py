@@ -25,6 +25,7 @@ from disting.measurement import Signal, TimeSeries
 from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Quantity, Sort
 from disting.network.network import Network
+from disting.renamed import renamed
 from disting.simulation.mechanics import (
     AnyModel,
     Friction,
@@ -231,14 +232,23 @@ class Bench:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # what is not finite then is refused as no record
+def as_excitation(excitation: Excitation | str | None) -> Excitation:
+    """An excitation as it is or by its kind, the usual one for None; raises InputError."""
+    if isinstance(excitation, Excitation):
+        return excitation
+    return Excitation() if excitation is None else Excitation(Kind(excitation))
+
+
+@renamed(parameters="values")
 def simulate(
     model: AnyModel,
-    parameters: Mapping[str, float],
-    excitation: Excitation | None = None,
+    values: Mapping[str, float],
+    excitation: Excitation | str | None = None,
     bench: Bench | None = None,
 ) -> TimeSeries:
-    """Record of force and sensor of a model, of a circuit of current and voltage; `parameters` by
-    name in one system of units (SI). The same seed, the same record.
+    """Record of force and sensor of a model, of a circuit of current and voltage; `values` of its
+    parameters by name in one system of units (SI); `excitation` also by its kind, such as "chirp".
+    The same seed, the same record.
 
     Raises InputError for wrong parameters, an excitation beyond half the sampling rate, or one at
     an undamped resonance.
@@ -252,7 +262,7 @@ def simulate(
         raise InputError(
             f"{model.name} has several inputs or outputs: simulate_all records them all"
         )
-    return _record(model, parameters, excitation or Excitation(), bench or Bench(), ())
+    return _record(model, values, as_excitation(excitation), bench or Bench(), ())
 
 
 def simulate_all(

@@ -9,7 +9,7 @@ the other. The larger rank is proven already (a minor that is not zero somewhere
 the smaller one is k at most is proven by elimination over the polynomials.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -19,10 +19,13 @@ from disting.behaviour.transfer import coefficients_have_rank, rank_is_at_most
 from disting.conditions.rule import DEPENDENCES, RANK
 from disting.conditions.side import AnySide
 from disting.decide.identifiability import Identifiability, ParameterIdentifiability
-from disting.errors import InputError, of_type, short
+from disting.decide.positive import ranges, within_ranges
+from disting.errors import InputError, enumeration, of_type
 from disting.evidence.conditions import Ranks
+from disting.evidence.positive import PositiveFinding
 from disting.experiments.experiment import Experiment
 from disting.experiments.measured_network import measure
+from disting.experiments.places import parse_experiment
 from disting.general import AnyModel, MatrixModel, Model
 from disting.model.chain import Chain, Quantity, Structure, as_quantity
 from disting.model.names import read_together
@@ -32,7 +35,7 @@ from disting.verdict.cascade import steps
 from disting.verdict.decisions import Decisions
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.identifiable import identify, identify_measured
-from disting.verdict.result import Query, Step, Verdict, View
+from disting.verdict.result import Conditions, Query, Step, Verdict, as_domain, query_of
 from disting.verdict.sides import (
     Given,
     both_places,
@@ -43,11 +46,6 @@ from disting.verdict.sides import (
 )
 
 SECONDS = 10.0  # for one proof
-VIEWS = {
-    Domain.COMPLEX: View.EXACT,
-    Domain.REAL: View.REAL,
-    Domain.POSITIVE: View.POSITIVE,
-}  # everything that may decide over a domain
 # these invariants of this model have this rank at most
 Claim = tuple[Structure | AnyModel, tuple[str, ...], int]
 
@@ -145,6 +143,8 @@ def compare(
     quantity: Quantity | str | None = None,
     experiments: Sequence[Experiment | tuple[Experiment, Experiment]] = (),
     domain: Domain | str | None = None,
+    conditions: Conditions | None = None,
+    prove: bool = False,
     query: Query | None = None,
     audit: bool = False,
     engine: Engine | None = None,
@@ -159,10 +159,13 @@ def compare(
     likewise, with each other or with chains; so are the matrices (A, B, C) or (A, B, C, D) of a
     state space, with entries as for `Model.from_state_space`.
 
-    `domain`: "complex", "real" or "positive" parameters (default), those of a machine; `query`
-    limits views, conditions and Markov parameters, and has a domain of its own; `audit` runs every
-    condition in every representation and raises ContradictionError where two decide differently;
-    `engine` brings settings and a store (default: none). Raises InputError for what names no model.
+    `domain`: "complex", "real" or "positive" parameters (default), those of a machine;
+    `conditions`: decide by these alone, over complex parameters, such as "1-5,8"; `prove` raises
+    what was computed at random points to a proof, if exact elimination ends in 10 s (`prove`);
+    `query` limits views, conditions and Markov parameters, and has a domain of its own; `audit`
+    runs every condition in every representation and raises ContradictionError where two decide
+    differently; `engine` brings settings and a store (default: none). Raises InputError for what
+    names no model, no condition or no domain.
 
     `experiments`: all ways in which both machines, chains or networks, are measured, with one
     parameter vector for all; `Experiment()` is that of both as they are. A pair of experiments
@@ -180,12 +183,47 @@ def compare(
     'indistinguishable'
     >>> compare(a[1], a[11], experiments=[Experiment(), Experiment(sensor=3)]).relation.value
     'distinguishable'
+    >>> compare(a[1], a[7], conditions="1-5", prove=True).certainty.value
+    'proven'
     """
-    query, engine = asked_of(query, engine, domain)
+    query, engine = asked_of(query, engine, domain, conditions)
     a, b = models_of_names(left, right, damped, quantity)
     sides = sides_of(a, b, both_places(experiments), engine)
     verdict = engine.verdict(sides.left, sides.right, query, audited=audit)
+    verdict = prove_again(verdict, sides.left, sides.right, SECONDS) if prove else verdict
     return replace(verdict, notes=(*verdict.notes, *sides.notes))
+
+
+def positive_shares(
+    left: Given,
+    right: Given,
+    *,
+    bound: Mapping[str, tuple[float | str, float | str]],
+    damped: bool | None = None,
+) -> tuple[PositiveFinding, PositiveFinding]:
+    """Shares of the positive models of each of two chains that have an equivalent in the other one,
+    within ranges of their parameters; chains as `compare` takes them.
+
+    `bound`: lowest and highest value of parameters of either chain by name, numbers or text such as
+    "2/3", taken exactly, in any one system of units; a parameter that is not named is any positive
+    number. Raises InputError for networks, for names that are parameters of neither chain, and for
+    ranges that are none.
+
+    >>> [share.share.value for share in positive_shares("3:1", "3:11", bound={"k12": (0, 1000)})]
+    ['sometimes', 'unknown']
+    """
+    a, b = models_of_names(left, right, damped, None)
+    if not (isinstance(a, Chain) and isinstance(b, Chain)):
+        raise InputError("ranges are supported for numbered chains only")
+    names = dict.fromkeys((*a.parameters, *b.parameters))
+    unknown = sorted(bound.keys() - names.keys())
+    if unknown:
+        raise InputError(
+            f"no parameter of the two models is called {enumeration(unknown)}; their parameters"
+            f" are {enumeration(names)}"
+        )
+    of_a, of_b = ({n: bound[n] for n in c.parameters if n in bound} for c in (a, b))
+    return within_ranges(a, b, ranges(of_a, of_b)), within_ranges(b, a, ranges(of_b, of_a))
 
 
 @renamed(sensor="quantity")
@@ -211,18 +249,23 @@ def findings(
 
 
 def asked_of(
-    query: Query | None, engine: Engine | None, domain: Domain | str | None = None
+    query: Query | None,
+    engine: Engine | None,
+    domain: Domain | str | None = None,
+    conditions: Conditions | None = None,
 ) -> tuple[Query, Engine]:
-    """Return a query over the domain and an engine, the usual ones by default; raises InputError
-    for anything else, and for a query over another domain.
+    """Return a query over the domain, by these conditions, and an engine, the usual ones by
+    default; raises InputError for anything else, and for a query that says something else.
     """
     over = None if domain is None else as_domain(domain)
     if query is None:
-        query = Query() if over is None else Query(VIEWS[over])
+        query = query_of(conditions, over)
     elif of_type(query, Query, "query is a Query") and over not in (None, query.view.domain):
         raise InputError(
             f"the query is over {query.view.domain} parameters, domain is {over}; give one of them"
         )
+    elif conditions is not None:
+        raise InputError("a query has conditions of its own: give query or conditions, not both")
     return query, Engine() if engine is None else of_type(engine, Engine, "engine is an Engine")
 
 
@@ -233,6 +276,7 @@ def identifiability(
     damped: bool | None = None,
     quantity: Quantity | str | None = None,
     experiments: Sequence[Experiment] = (),
+    also: Sequence[Experiment | str] = (),
     domain: Domain | str = Domain.POSITIVE,
     engine: Engine | None = None,
 ) -> Identifiability | ParameterIdentifiability:
@@ -242,8 +286,10 @@ def identifiability(
     vectors that fit (`least`, `most`).
 
     `domain`: "complex", "real" or "positive" parameters, the last ones being those of a machine.
-    `experiments`: all ways in which the chain, or the network of masses, is measured, with one
-    parameter vector for all; `Experiment()` is that of it as it is. Without them more is reported
+    `also`: experiments on the chain, or the network of masses, in addition to it as it is, each an
+    `Experiment` or text such as "sensor=2, lock=1"; `experiments`: all ways in which it is
+    measured, `Experiment()` being that of it as it is; with one parameter vector for all. Without
+    them more is reported
     on the unmodified chain: which combinations are determined, and all parameter vectors at a
     random point. A chain can be named, such as "3:1+b2": `damped` and `quantity` then apply to it;
     a network that is a chain in the chain's own parameters is that chain. `engine` brings settings
@@ -255,7 +301,7 @@ def identifiability(
     1
     >>> identifiability(a[3], experiments=[Experiment(), Experiment(locked=2)]).levels["m1"].value
     'not identifiable'
-    >>> identifiability(a[3], experiments=[Experiment(), Experiment(sensor=2)]).sentence
+    >>> identifiability(a[3], also=["sensor=2"]).sentence
     '7 parameters, all globally identifiable.'
     >>> identifiability("R0-p(L1,R2)-p(R1,C1)").most, identifiability("R0-p(R1,C1)").level.value
     (1, 'global')
@@ -268,20 +314,26 @@ def identifiability(
         raise InputError(
             "identifiability takes a chain, such as Family(3)[4], a Model or a Network"
         )
+    experiments = [*experiments, *with_unmodified(also)]
     if not experiments:
         return identify([model], over, engine)[0]
-    wrong = [e for e in experiments if not isinstance(e, Experiment)]
-    if wrong:
+    if not all(isinstance(experiment, Experiment) for experiment in experiments):
         raise InputError(
             "experiments on one model are single ones, such as Experiment(sensor=2), not pairs"
         )
     return identify_measured(measure(model, tuple(dict.fromkeys(experiments))), over, engine)
 
 
-def as_domain(domain: Domain | str) -> Domain:
-    """The domain of this name; raises InputError for another one."""
-    try:
-        return Domain(domain)
-    except ValueError:
-        names = ", ".join(d.value for d in Domain)
-        raise InputError(f"domain is one of {names}, not {short(domain)}") from None
+def with_unmodified(also: Sequence[Experiment | str]) -> list[Experiment]:
+    """The model as it is, and further experiments on it; none where there are no further ones.
+    Raises InputError for text that names masses of two models.
+    """
+    further = [_one_model(e) if isinstance(e, str) else e for e in also]
+    return [Experiment(), *further] if further else []
+
+
+def _one_model(text: str) -> Experiment:
+    parsed = parse_experiment(text)
+    if parsed.places:
+        raise InputError(f"{text} names masses of two models: write only {text.partition('/')[0]}")
+    return parsed.experiment

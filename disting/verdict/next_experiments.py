@@ -6,25 +6,30 @@ a pair less distinguishable. Two things at one mass of the one structure are at 
 other; at two masses they are at two.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Generic, TypeVar
 
-from disting.errors import InputError
+from disting.conditions.side import AnySide
+from disting.errors import InputError, of_type
 from disting.experiments.experiment import places_of
-from disting.experiments.menu import Costs, Item
+from disting.experiments.menu import Costs, Item, as_costs
 from disting.model.chain import Chain, Sort
 from disting.model.kinds import CIRCUIT_KINDS, COMPARTMENT_KINDS, KINDS, Kind
+from disting.model.names import name_of, read_together
 from disting.model.presentation import NotebookTable, plural, summary
 from disting.network.chains import of_chain
 from disting.network.network import Network
+from disting.network.notation import network_of, notations_of
 from disting.verdict.engine import Engine, Progress, silent
 from disting.verdict.placement import place
 from disting.verdict.placement_record import Placement
 from disting.verdict.placement_verdicts import Answer
+from disting.verdict.result import Query, Relation, View
 
+NAMED = "the structures are a list of chains, of networks or of texts for them"
 S = TypeVar("S", bound=Chain | Network, covariant=True)
 MENUS = {
     Sort.MACHINE: KINDS,
@@ -160,6 +165,90 @@ class Menu(NotebookTable, Generic[S]):
             return bool(places[0])
         same = items[0].at == items[1].at
         return any((a == b) is same for a in places[0] for b in places[1])
+
+
+def next_experiments(
+    models: Sequence[Chain | Network | str],
+    *,
+    damped: bool | None = None,
+    cost: Costs | Mapping[str, float] | str | None = None,
+    engine: Engine | None = None,
+    executor: Executor | None = None,
+    progress: Progress = silent,
+) -> Menu[Chain | Network]:
+    """Further experiments that distinguish structures with the same response, for each structure
+    that may be the true one, cheapest first.
+
+    `models`: chains of one size, or networks of one sort, or texts for them such as "3:1" or
+    "R0-p(R1,C1)"; `damped` applies to names of chains. `cost` of each kind of experiment, in any
+    unit, as `Costs`, a dict or text such as "sensor=3,lock=1": those that are not named cost what
+    `Costs()` says. Decided over complex parameters. Raises InputError for fewer than two
+    structures, for the same one twice, and for two that the present measurement distinguishes or
+    that are undecided.
+
+    >>> menu = next_experiments(["3:1", "3:11"], cost={"sensor": 2})
+    >>> menu.names, menu.costs.of["sensor"]
+    (('3:1', '3:11'), 2)
+    """
+    engine = engine or Engine()
+    named = _named(list(of_type(models, Iterable, NAMED)), damped)
+    refuse_distinguishable(sides_as_measured(named, engine), engine)
+    costs = as_costs(cost)
+    return menu_for(named, engine, costs=costs, executor=executor, progress=progress)
+
+
+def _named(
+    models: Sequence[Chain | Network | str], damped: bool | None
+) -> list[tuple[str, Chain | Network]]:
+    """Two structures at least with their names, each once; raises InputError."""
+    for model in models:
+        of_type(model, Chain | Network | str, NAMED)
+    read = [network_of(m) if isinstance(m, str) and notations_of(m) else m for m in models]
+    chains = iter(read_together([m for m in read if isinstance(m, str)], damped=damped))
+    structures = [next(chains) if isinstance(m, str) else m for m in read]
+    if len(structures) < 2:
+        raise InputError("name at least two structures that are to be distinguished")
+    named = [(name_of(s) if isinstance(s, Chain) else s.name, s) for s in structures]
+    again = [name for i, (name, s) in enumerate(named) if s in structures[:i]]
+    if again:
+        raise InputError(f"{again[0]} is named twice")
+    return named
+
+
+def sides_as_measured(
+    named: Sequence[tuple[str, Chain | Network]], engine: Engine
+) -> Sequence[AnySide]:
+    """Structures as they are compared now: chains of one size as chains, others as networks.
+    Raises InputError for chains of different sizes, and for chains together with networks.
+    """
+    chains = [(name, s) for name, s in named if isinstance(s, Chain)]
+    networks = [s for _, s in named if isinstance(s, Network)]
+    if chains and networks:
+        raise InputError("chains and networks are on different menus: name structures of one kind")
+    if len({chain.n_masses for _, chain in chains}) > 1:
+        raise InputError("the structures have different numbers of masses: name some of one size")
+    if chains:
+        return [engine.subject(name, chain) for name, chain in chains]
+    return engine.general_subjects(networks, [name for name, _ in named])
+
+
+def refuse_distinguishable(sides: Sequence[AnySide], engine: Engine) -> None:
+    """Raise Distinguishable for two that the present measurement distinguishes, and InputError
+    where that is not known.
+    """
+    for left, right in combinations(sides, 2):
+        verdict = engine.verdict(left, right, Query(View.EXACT, inclusion=False))
+        if verdict.relation is Relation.DISTINGUISHABLE:
+            raise Distinguishable(
+                f"{left.name} and {right.name} are distinguishable by the present measurement"
+                " already"
+            )
+        if verdict.relation is Relation.UNDECIDED:
+            raise InputError(f"{left.name} and {right.name} are undecided as they are measured now")
+
+
+class Distinguishable(InputError):
+    """Structures that need no further experiment."""
 
 
 def menu_for(

@@ -19,7 +19,7 @@ from disting.model.question import Domain
 from disting.renamed import renamed
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
-from disting.verdict.result import Query, Relation, Verdict
+from disting.verdict.result import Conditions, Query, Relation, Verdict
 from disting.verdict.sides import Given, both_places, models_of_names
 from disting.verdict.verdict_file import (
     DAMAGED,
@@ -80,11 +80,12 @@ def compare_everywhere(
     quantity: Quantity | str | None = None,
     places: Places = (),
     domain: Domain | str | None = None,
+    conditions: Conditions | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> AllPlacements:
     """Verdicts on two machines, chains or networks, as they are and under the experiments `also`,
-    for every way to place those on the right.
+    for every way to place those on the right. Other arguments are those of `compare`.
 
     Experiments name masses of the left model, as `Experiment` or as text such as "sensor=3/2,
     lock=1", where 3/2 is mass 3 of the left model and 2 of the right one; `places` names more such
@@ -99,7 +100,7 @@ def compare_everywhere(
     'surely'
     """
     a, b = models_of_names(left, right, damped, quantity)
-    query, engine = asked_of(query, engine, domain)
+    query, engine = asked_of(query, engine, domain, conditions)
     verdicts = []
     for way, pairs in placements(a, b, named_all(also), places):
         verdict = compare(a, b, experiments=pairs, query=query, engine=engine)
@@ -140,18 +141,19 @@ def everywhere_file(
     damped: bool | None = None,
     quantity: Quantity | str | None = None,
     domain: Domain | str | None = None,
+    conditions: Conditions | None = None,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> dict[str, object]:
     """The verdicts of `compare_everywhere` as plain data, ready for JSON, which `verify` checks
-    alone. Raises InputError as that does.
+    alone; the arguments are those of `compare_everywhere`. Raises InputError as that does.
 
     >>> data = everywhere_file("3:1", "3:11", ["sensor=2"], damped=True)
     >>> data["answer"], [one["places"] for one in data["verdicts"]]
     ('surely', [{'2': 1}, {'2': 2}, {'2': 3}])
     """
     a, b = models_of_names(left, right, damped, quantity)
-    experiments, (query, engine) = named_all(also), asked_of(query, engine, domain)
+    experiments, (query, engine) = named_all(also), asked_of(query, engine, domain, conditions)
     files = [
         {"places": {str(left_place): right_place for left_place, right_place in way}}
         | verdict_file(a, b, experiments=pairs, query=query, engine=engine)

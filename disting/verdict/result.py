@@ -5,6 +5,7 @@ parameters. By default it is about positive parameters: masses, springs and damp
 positive. The paper's views speak of generic complex parameters.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -16,8 +17,17 @@ from disting.conditions.inclusion import (
     inclusions_from_dict,
     inclusions_to_dict,
 )
-from disting.conditions.rule import EXACT, RULES, Finding, Outcome, Role, Rule, Stage
-from disting.errors import InputError
+from disting.conditions.rule import (
+    EXACT,
+    RULES,
+    Finding,
+    Outcome,
+    Role,
+    Rule,
+    Stage,
+    condition_names,
+)
+from disting.errors import InputError, short
 from disting.evidence.conditions import capital
 from disting.evidence.kinds import Evidence, evidence_from as evidence_from
 from disting.evidence.positive import BothWays, PositiveFinding
@@ -368,3 +378,55 @@ class Query:
         both models, which are exhaustive.
         """
         return self.markov or n_states
+
+
+REPRESENTATIONS = {"tf": View.TF, "markov": View.MARKOV, "all": View.EXACT}
+VIEWS = {
+    Domain.COMPLEX: View.EXACT,
+    Domain.REAL: View.REAL,
+    Domain.POSITIVE: View.POSITIVE,
+}  # everything that may decide over a domain
+Conditions = str | Iterable[str | int]
+"""Numbers of conditions: a list, or text such as "1-5,8"."""
+
+
+def query_of(
+    conditions: Conditions | None = None,
+    domain: Domain | str | None = None,
+    representation: str = "all",
+    markov: int = 0,
+) -> Query:
+    """The query of these options: over positive parameters, but over complex ones, which is the
+    paper's view, where conditions or a representation ("tf", "markov") are named. Conditions that
+    are named decide alone. Raises InputError for unknown names, and for real or positive parameters
+    together with conditions or a representation.
+
+    >>> query_of(), query_of("1-3")
+    (Query(), Query(View.COMBINED, conditions=('1', '2', '3')))
+    """
+    if representation not in REPRESENTATIONS:
+        known = ", ".join(REPRESENTATIONS)
+        raise InputError(f"representation is one of {known}, not {short(representation)}")
+    view = REPRESENTATIONS[representation]
+    is_paper = conditions is not None or view is not View.EXACT
+    over = as_domain(domain or (Domain.COMPLEX if is_paper else Domain.POSITIVE))
+    if over is not Domain.COMPLEX:
+        if is_paper:
+            raise InputError(
+                f"domain {over} is not supported with conditions or a representation, which decide"
+                " over complex parameters; remove one of them"
+            )
+        return Query(VIEWS[over], markov=markov)
+    if conditions is None:
+        return Query(view, markov=markov)
+    names = condition_names(conditions) if isinstance(conditions, str) else tuple(conditions)
+    return Query(View.COMBINED if view is View.EXACT else view, tuple(map(str, names)), markov)
+
+
+def as_domain(domain: Domain | str) -> Domain:
+    """The domain of this name; raises InputError for another one."""
+    try:
+        return Domain(domain)
+    except ValueError:
+        names = ", ".join(d.value for d in Domain)
+        raise InputError(f"domain is one of {names}, not {short(domain)}") from None

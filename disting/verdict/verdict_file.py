@@ -31,7 +31,7 @@ from disting.renamed import renamed
 from disting.verdict.comparison import asked_of, compare
 from disting.verdict.engine import Engine
 from disting.verdict.older_files import OLDER, in_older_words, without_primes
-from disting.verdict.result import Query, Relation, Verdict, View
+from disting.verdict.result import Conditions, Query, Relation, Verdict, View
 from disting.verdict.sides import Given, Sides, both_places, models_of_names, sides_of
 
 FORMAT = Format.VERDICT.value
@@ -71,6 +71,8 @@ def verdict_file(
     quantity: Quantity | str | None = None,
     experiments: Places = (),
     domain: Domain | str | None = None,
+    conditions: Conditions | None = None,
+    prove: bool = False,
     query: Query | None = None,
     engine: Engine | None = None,
 ) -> dict[str, object]:
@@ -84,10 +86,10 @@ def verdict_file(
     """
     models = models_of_names(left, right, damped, quantity)
     refuse_misnamed_models(model for model in models if not isinstance(model, Chain))
-    (query, engine), both = asked_of(query, engine, domain), both_places(experiments)
-    verdict = compare(*models, experiments=both, query=query, engine=engine)
+    (query, engine), both = asked_of(query, engine, domain, conditions), both_places(experiments)
+    verdict = compare(*models, experiments=both, prove=prove, query=query, engine=engine)
     beside = (
-        compare(*models, experiments=both, query=exact(query), engine=engine)
+        compare(*models, experiments=both, prove=prove, query=exact(query), engine=engine)
         if has_more(verdict)
         else None
     )

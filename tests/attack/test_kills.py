@@ -43,7 +43,7 @@ def data(tmp_path_factory):
     path = tmp_path_factory.mktemp("data") / "drive.csv"
     assert (
         disting(
-            "simulate", "--samples", 500, "--rate", 500, "--high", 100, "--csv", path
+            "simulate", "--samples", 500, "--sampling-rate", 500, "--high", 100, "--csv", path
         ).returncode
         == 0
     )

@@ -279,6 +279,6 @@ def test_of_very_many_lines_some_are_fitted_and_text_and_json_say_so(tmp_path, m
 def test_no_more_lines_are_fitted_than_the_help_says():
     omega = np.linspace(5.0, 300.0, 2 * MOST_LINES)
     many = FrequencyResponse(omega, 1 / (0.01 * (1 + 0.002j * omega)))
-    given = signature(select).parameters["most_lines"].default
+    given = signature(select).parameters["lines"].default
     train, test, _ = check(many, many, [], [Chain(1)], given)
     assert len(train) == len(test) == 10_000 == MOST_LINES

@@ -381,7 +381,7 @@ def test_where_nothing_explains_the_data_the_misfit_is_not_taken_for_noise():
         data[0],
         [Chain(1, damped=False), replace(ONE, dead_time=True)],
         test=data[1],
-        fixed={"m1": 0.5},
+        fix={"m1": 0.5},
     )
     lowest = min(c.j_test for c in found.candidates)
     assert not found.explanation.explains and found.described.j_test == lowest

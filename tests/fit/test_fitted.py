@@ -93,7 +93,7 @@ def test_the_response_is_sure_where_the_parameters_are_not():
 
 
 def test_given_parameters_have_no_band():
-    found = select(response(DRIVE, VALUES, OMEGA, NOISE), [DRIVE], fixed=VALUES)
+    found = select(response(DRIVE, VALUES, OMEGA, NOISE), [DRIVE], fix=VALUES)
     assert not confidence(found.described, found.task, OMEGA).amplitude.any()
 
 
@@ -102,7 +102,7 @@ def test_fit_percent_of_a_constant_model():
     constant data.
     """
     flat = FrequencyResponse(OMEGA, np.full(60, 2.0 + 0j), quantity="acceleration")
-    found = select(flat, [Chain(1, quantity="acceleration", damped=False)], fixed={"m1": 0.5})
+    found = select(flat, [Chain(1, quantity="acceleration", damped=False)], fix={"m1": 0.5})
     first = np.arange(60) % 2 == 0
     values = [np.where(first, 1.0, 3.0), np.where(first, 2.0, 3.0), np.full(60, 2.0)]
     none, worse, constant = (
@@ -113,7 +113,7 @@ def test_fit_percent_of_a_constant_model():
         and worse == pytest.approx(100 * (1 - np.sqrt(2)))
         and isnan(constant)
     )
-    met = select(response(DRIVE, VALUES, OMEGA), [DRIVE], fixed=VALUES)
+    met = select(response(DRIVE, VALUES, OMEGA), [DRIVE], fix=VALUES)
     assert fit_percent(met.described, met.task, met.test) == pytest.approx(100.0)
 
 

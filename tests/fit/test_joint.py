@@ -481,7 +481,7 @@ def test_the_load_side_of_the_bench_sharpens_the_intervals():
     motor, load = bench("A"), bench("A", "load")
     sizes = {}
     for name, further in (("motor", []), ("both", [FurtherResponse(load, Setup(sensor="2"))])):
-        found = select(motor, [TWO], further=further, lines=lines_by_deviation)
+        found = select(motor, [TWO], further=further, weights=lines_by_deviation)
         sizes[name] = found.candidates[0].practical.relative_errors
     ratio = {n: sizes["both"][n] / sizes["motor"][n] for n in sizes["both"]}
     assert ratio["k12"] < 0.8 and ratio["b2"] < 0.95 and ratio["d12"] < 0.95, ratio

@@ -28,7 +28,7 @@ def reversed_drive(fixed, **more):
     chain = Chain(2, meas_plus=2, damped=True, ground_dampers=(2,))
     values = {"m1": 0.01, "m2": 0.03, "k12": 900.0, "d12": 0.2, "b2": 0.5}
     data = response(chain, values, noise=0.01)
-    return chain, select(data, REVERSED, test=data, fixed=fixed, **more)
+    return chain, select(data, REVERSED, test=data, fix=fixed, **more)
 
 
 @pytest.mark.full
@@ -58,7 +58,7 @@ def test_bounds_prune_only_where_they_cut_nothing():
         first = representatives(REVERSED, Engine(), limits_of(bounds, {}))
         assert sum(chain != other for chain, other in first.items()) == saved, bounds
     for most, saved in ((1.0, 0), (float("inf"), 1)):
-        chain, found = reversed_drive(None, bounds={"m1": (0.0, most)})
+        chain, found = reversed_drive(None, bound={"m1": (0.0, most)})
         assert found.saved == saved and (chain in found.same_as) == bool(saved)
 
 
@@ -91,7 +91,7 @@ def test_what_the_drives_share_does_not_keep_them_apart():
 def test_a_candidate_with_nothing_left_to_estimate_is_evaluated():
     train, test = demo(0).response("acceleration"), demo(1).response("acceleration")
     candidates = [c for c in figure_1((1, 2)) if not c.lag and len(c.ground_dampers) < 2]
-    found = select(train, candidates, test=test, fixed={"m1": 0.0045})
+    found = select(train, candidates, test=test, fix={"m1": 0.0045})
     given = next(c for c in found.candidates if c.chain == Chain(1, damped=True))
     exact = np.array([0.0045])
     assert given.j_train == pytest.approx(
@@ -104,7 +104,7 @@ def test_a_candidate_with_nothing_left_to_estimate_is_evaluated():
 @pytest.mark.full
 def test_a_selection_of_given_values_alone():
     train = response(Chain(1, damped=True), {"m1": 2.0}, noise=0.01)
-    found = select(train, [Chain(1, damped=True)], fixed={"m1": 2.0})
+    found = select(train, [Chain(1, damped=True)], fix={"m1": 2.0})
     assert found.selected.j_test == pytest.approx(found.selected.j_train)
     assert "m1   = 2           given" in "\n".join(fit_text(found, train))
     (inertia,) = [r for r in physical(found.selected, found.task) if r.name == "total inertia"]
@@ -120,7 +120,7 @@ def test_a_selection_of_given_values_alone():
 def test_all_figures_of_a_selection_of_given_values_alone():
     """In the other test: those of parameters and of starts."""
     train = response(Chain(1, damped=True), {"m1": 2.0}, noise=0.01)
-    found = select(train, [Chain(1, damped=True)], fixed={"m1": 2.0})
+    found = select(train, [Chain(1, damped=True)], fix={"m1": 2.0})
     assert len(fit_figures(found, physical(found.selected, found.task), train)) > 3
 
 
@@ -131,6 +131,6 @@ def test_what_is_given_does_not_count_as_determined():
     """
     chain = Chain(2, meas_plus=2, damped=True, dead_time=True)
     values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0, "Td": 1e-3}
-    (found,) = select(response(chain, values, noise=0.01), [chain], fixed={"Td": 1e-3}).candidates
+    (found,) = select(response(chain, values, noise=0.01), [chain], fix={"Td": 1e-3}).candidates
     assert found.practical.rank == 3 and not found.admissible
     assert found.practical.unidentifiable.endswith("k12/(m1*m2) and what is given")

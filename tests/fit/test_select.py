@@ -161,7 +161,7 @@ def test_a_profile_rises_on_both_sides(selection):
 
 @pytest.mark.full
 def test_of_more_lines_so_many_are_fitted_and_the_reading_says_so():
-    found = select(planted(1), [Chain(1, damped=True)], test=planted(2), most_lines=40)
+    found = select(planted(1), [Chain(1, damped=True)], test=planted(2), lines=40)
     for data in (found.task.cost.measured, found.test):
         assert len(data) == 40 and "40 of 120 lines, evenly spaced" in data.reading
     assert selection_to_dict(found)["frequencies"]["lines"] == 40
@@ -176,7 +176,7 @@ def test_libraries_of_linear_algebra_get_one_thread_and_then_their_own_again():
         return np.ones(len(data))
 
     with threadpool_limits(2):
-        select(planted(1), [Chain(1, damped=True)], lines=weights)
+        select(planted(1), [Chain(1, damped=True)], weights=weights)
         after = {library["num_threads"] for library in threadpool_info()}
     assert seen and set(seen) == {1} and after == {2}
 
@@ -272,7 +272,7 @@ def test_what_no_data_determine_is_said_by_its_combinations_and_never_selected()
 def test_known_parameters_make_it_identifiable():
     chain = Chain(2, meas_plus=2, damped=True)
     values = {"m1": 1.0, "m2": 0.6, "k12": 3e4, "d12": 8.0}
-    (found,) = select(response(chain, values, noise=0.01), [chain], fixed={"m1": 1.0}).candidates
+    (found,) = select(response(chain, values, noise=0.01), [chain], fix={"m1": 1.0}).candidates
     assert found.admissible and found.practical.unidentifiable == "" and found.practical.rank == 3
 
 
@@ -291,7 +291,7 @@ def test_input_that_does_not_fit_together_is_refused():
     with pytest.raises(InputError, match="training shows acceleration, test velocity"):
         select(planted(1), [Chain(1, damped=False)], test=planted(2).to_quantity("velocity"))
     with pytest.raises(InputError, match="choose other weights"):
-        select(planted(1), [Chain(1, damped=False)], lines=lines_by_deviation)
+        select(planted(1), [Chain(1, damped=False)], weights=lines_by_deviation)
 
 
 @pytest.mark.full

@@ -62,7 +62,7 @@ def test_braces_of_another_form_are_refused_where_values_are_needed(text, words)
 
 
 def test_simulate_takes_them_and_set_wins():
-    low = ("--low", "1", "--high", "100", "--samples", "200", "--rate", "500")
+    low = ("--low", "1", "--high", "100", "--samples", "200", "--sampling-rate", "500")
     own = called("simulate", RANDLES, *low)
     values = "R1=20,P1=25e-6,n1=0.9,R2=100,W1=10"
     assert own.returncode == 0, own.stderr

@@ -295,7 +295,7 @@ def test_a_damper_may_be_fixed_to_zero_or_left_away():
     values = {"m1": 5e-3, "m2": 4e-3, "k12": 500.0, "d12": 1e-9, "b1": 0.1}
     data = measured(Drive(chain, values, 0.06, 3), 10)
     with_damper = Chain(2, ground_dampers=(1,))
-    one = select(data, [Chain(1), with_damper], fixed={"d12": 0.0})
+    one = select(data, [Chain(1), with_damper], fix={"d12": 0.0})
     assert one.selected.chain == with_damper and one.selected.estimate.parameters["d12"] == 0.0
     other = select(data, [Chain(1), replace(with_damper, damped=False)])
     assert other.selected.n_parameters == one.selected.n_parameters == 4
@@ -305,7 +305,7 @@ def test_a_damper_may_be_fixed_to_zero_or_left_away():
     done = called(*shlex.split(command)[1:])
     assert done.returncode == 0 and "2:1+b1" in done.stdout
     with pytest.raises(InputError, match="m1 is fixed to a positive number, not 0"):
-        select(data, [with_damper], fixed={"m1": 0.0})
+        select(data, [with_damper], fix={"m1": 0.0})
 
 
 @pytest.mark.full

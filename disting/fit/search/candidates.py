@@ -6,7 +6,7 @@ from itertools import combinations, product
 
 from disting.errors import ConstraintViolation, InputError
 from disting.fit.search.setup import port
-from disting.model.chain import Chain, Quantity
+from disting.model.chain import Chain, Quantity, as_quantity
 from disting.model.family import Family
 from disting.model.names import name_of
 from disting.model.symmetry import Form, forms
@@ -96,6 +96,37 @@ def chosen_ports(
             f"no chain of {', '.join(map(str, sizes))} masses has these ports: {refused}"
         )
     return tuple(variant for chain in chains for variant in variants(chain))
+
+
+def candidates(
+    masses: Sequence[int] = (1, 2, 3, 4),
+    *,
+    actuator: str = "1",
+    sensor: str = "1",
+    gap: int = 0,
+    family: bool = False,
+    base: bool = False,
+    damped: bool = True,
+    quantity: Quantity | str = Quantity.ACCELERATION,
+) -> tuple[Chain, ...]:
+    """Chains to fit, each with every set of ground dampers, with and without lag and dead time.
+
+    `masses`: their numbers; `actuator` and `sensor`: masses where the force acts and the sensor
+    is, as `chosen_ports` reads them; `gap`: no spring right of that mass; `family`: force, sensor
+    and gap anywhere instead; `base`: also each chain on an elastic base (`on_elastic_bases`);
+    `damped`: with a damper beside every spring; `quantity`: what the sensor shows. Raises
+    InputError where none is left.
+
+    >>> len(candidates()), len(candidates([2, 3], base=True)), len(candidates([2], family=True))
+    (120, 64, 48)
+    """
+    shown = as_quantity(quantity)
+    if family:
+        chains = whole_family(masses, shown)
+    else:
+        chains = chosen_ports(masses, actuator, sensor, gap, shown)
+        chains += on_elastic_bases(chains) if base else ()
+    return tuple(replace(chain, damped=damped) for chain in chains)
 
 
 def on_elastic_bases(chains: Sequence[Chain]) -> tuple[Chain, ...]:

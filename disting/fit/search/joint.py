@@ -8,7 +8,7 @@ A machine in one state is eliminated once for all its sensors. A dead time of it
 second response, follows the parameters of the chain.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -16,6 +16,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from disting.errors import InputError, short
 from disting.fit.search.cost import Case, Cost, SquaredCost
 from disting.fit.search.plant import Motion, Plant
 from disting.fit.search.setup import Setup, measurable
@@ -24,6 +25,8 @@ from disting.measurement.arrays import Complex, Real
 from disting.model.chain import Chain, Structure
 from disting.model.presentation import plural, summary
 from disting.statistics.scatter import Scatter
+
+DEAD_TIMES = ("shared", "own")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +47,25 @@ class FurtherResponse:
         """With at most so many lines each."""
         test = None if self.test is None else self.test.thinned(count)
         return replace(self, measured=self.measured.thinned(count), test=test)
+
+    def masked(self, low: float, high: float) -> "FurtherResponse":
+        """With the lines from `low` to `high` [Hz]."""
+        test = None if self.test is None else self.test.masked(low, high)
+        return replace(self, measured=self.measured.masked(low, high), test=test)
+
+
+def with_dead_times(
+    further: Sequence[FurtherResponse], dead_time: str
+) -> Sequence[FurtherResponse]:
+    """The responses with a dead time of each, called Td2, Td3 and so on, if `dead_time` is "own";
+    as they are if it is "shared". Raises InputError for another word.
+    """
+    if dead_time not in DEAD_TIMES:
+        raise InputError(f"dead_time is {' or '.join(DEAD_TIMES)}, not {short(dead_time)}")
+    if dead_time == "shared":
+        return further
+    numbered = enumerate(further, 2)
+    return [replace(f, setup=replace(f.setup, delay=f"Td{k}")) for k, f in numbered]
 
 
 @dataclass(frozen=True, eq=False)

@@ -59,7 +59,7 @@ def network_of(
     name: str = "",
     quantity: Quantity | str = Quantity.ACCELERATION,
 ) -> Network:
-    """The network that a text describes, in the notation that is named or that its signs show:
+    """The network that a text describes, in the `notation` that is named or that its signs show:
     "impedance", "autoeis", "boukamp", "impedancefitter", "spice", "machine", "compartments"; or
     that of a number in a family, such as trees-4:17. `quantity`: what the sensors of a machine show
     unless the text states it. `name`: the text, unless another one is given. Raises InputError with

@@ -9,6 +9,7 @@ import numpy as np
 from disting.fit.judge.exclusion import LEVEL
 from disting.fit.search.candidates import reference
 from disting.model.chain import Chain, Sort, text_drawing
+from disting.planning.effort import FEWEST
 from disting.planning.fit_file import FitRecord, NamedNetworks
 from disting.planning.power import POWER, Answer, Plan, is_trusted, typical
 from disting.planning.rival import AnyStructure, Limit, Rival, name_of
@@ -18,7 +19,6 @@ from disting.report.fit.words import percent, readable
 from disting.verdict.result import Relation
 
 LOUD = 0.3  # noise of a line beyond which the logarithm of a response is no longer linear in it
-FEWEST = 8  # lines of a response
 WORDS = {
     Sort.MACHINE: ("machine", "with this force and sensor"),
     Sort.CIRCUIT: ("circuit", "at these nodes"),

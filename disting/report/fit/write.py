@@ -67,7 +67,7 @@ def simulation(plan: Plan, best: Design, path: Path) -> str:
     """The command that runs a spectrum on the model."""
     return (
         f"disting simulate {named_with_values(plan.model, plan.values)}"
-        f" --spectrum {path} --rate {best.rate:g} --samples {best.samples}"
+        f" --spectrum {path} --sampling-rate {best.rate:g} --samples {best.samples}"
     )
 
 

@@ -62,6 +62,6 @@ def nothing(train: FrequencyResponse) -> Selection:
         candidates,
         thresholds=strict,
         rule=Rule.PAPER,
-        fixed={"k12": 900.0},
-        bounds={"m1": (0.0, 0.009)},
+        fix={"k12": 900.0},
+        bound={"m1": (0.0, 0.009)},
     )
