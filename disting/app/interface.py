@@ -53,6 +53,10 @@ class Call:
 CALLS = {
     call.name: call
     for call in (
+        Call("files", "project", "list_files"),
+        Call("look", "reading", "look_at_file", seconds=120.0),
+        Call("fit", "fitting", "fit", is_job=True, seconds=LONG),
+        Call("fits", "project", "list_fits"),
         Call("open", "project", "open_state"),
         Call("save", "project", "save_state"),
     )

@@ -15,13 +15,14 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from filelock import FileLock, Timeout
 
+from disting.app.interface import Json
 from disting.errors import InputError, short
 from disting.files import json_text, read_json, write_whole
 
+ABOUT = "about.json"  # request and answer of a finished fit
 LOCK = ".disting-app.lock"
 LONGEST = 120  # bytes of a file name
 FORBIDDEN = re.compile(r'[\x00-\x1f\x7f/\\:*?"<>|]')
@@ -96,18 +97,26 @@ def own_folder(path: Path) -> Iterator[Path]:
         lock.release()
 
 
-def open_state(request: dict[str, Any]) -> dict[str, Any]:
+def open_state(request: Json) -> Json:
     """Content that a page saved, null where it saved none."""
     path = inside(Path(), f"{request['page']}.json")
     content = read_json(path, "another project folder") if path.exists() else None
     return {"content": content if isinstance(content, dict) else None}
 
 
-def save_state(request: dict[str, Any]) -> dict[str, Any]:
+def save_state(request: Json) -> Json:
     """Keep the content of a page."""
     path = inside(Path(), f"{request['page']}.json")
     write_whole(path, [json_text(request["content"], indent=1), "\n"])
     return {"saved": path.name}
+
+
+def list_files(request: Json) -> Json:
+    """Return the measured files of the project, by name."""
+    folder = inside(Path(), "data")
+    paths = sorted(folder.iterdir()) if folder.is_dir() else []
+    named = [path for path in paths if path.is_file() and not path.name.startswith(".")]
+    return {"files": [{"name": path.name, "size": path.stat().st_size} for path in named]}
 
 
 def fit_numbers(folder: Path) -> Iterator[int]:
@@ -119,7 +128,19 @@ def fit_numbers(folder: Path) -> Iterator[int]:
             yield number
 
 
-def read_object(path: Path) -> dict[str, Any]:
+def list_fits(request: Json) -> Json:
+    """Return all finished fits, the last one first."""
+    return {"fits": [summary(number) for number in reversed([*fit_numbers(Path())])]}
+
+
+def summary(number: int) -> Json:
+    """Return number, files, request and answer of a finished fit."""
+    folder = inside(Path(), "fits", str(number))
+    files = sorted(path.name for path in folder.iterdir() if path.name != ABOUT)
+    return read_object(folder / ABOUT) | {"fit": number, "files": files}
+
+
+def read_object(path: Path) -> Json:
     """A JSON object of the project, empty where there is none."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))

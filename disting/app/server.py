@@ -87,6 +87,7 @@ def make_app(setting: Setting, keys: Keys) -> Asgi:
         OSError: _not_possible,
         HTTPException: _not_found,
         ClientDisconnect: _gone,
+        Exception: _mistaken,
     }
     return Gate(Starlette(routes=routes, exception_handlers=handlers, lifespan=lifespan), keys)
 
@@ -306,6 +307,10 @@ async def _not_possible(request: Request, reason: OSError) -> Response:
 async def _not_found(request: Request, reason: HTTPException) -> Response:
     words = {404: "there is nothing at this address", 405: "this method is not supported here"}
     return _error(reason.status_code, words.get(reason.status_code, reason.detail))
+
+
+async def _mistaken(request: Request, reason: Exception) -> Response:
+    return _error(500, f"the program made a mistake ({type(reason).__name__})")
 
 
 async def _gone(request: Request, reason: ClientDisconnect) -> Response:

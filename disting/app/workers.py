@@ -10,7 +10,10 @@ import os
 import signal
 import sys
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -25,15 +28,17 @@ from disting.store.scheduling import end_with_parent
 MEMORY = 4 * 2**30  # bytes of address space of one process
 GRACE = 2.0  # seconds in which a process may end by itself
 TROUBLES = "app-errors.txt"  # in the project folder, what a defect of the program left
-WARM = ("disting.measurement.looking",)  # imported before the first call
+LIBRARIES = ("numpy", "scipy.optimize", "scipy.stats", "scipy.signal")  # which take long to load
+IDLE = 0.3  # seconds without a call after which a worker loads what the next one may need
 
 
-@dataclass(frozen=True, slots=True)
 class Failure(Exception):
     """A call that was not answered: status of HTTP and a sentence."""
 
-    status: int
-    message: str
+    def __init__(self, status: int, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+        self.message = message
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,10 +109,11 @@ def _serve(pipe: Connection, setting: Setting) -> None:
     threading.Thread(target=end_with_parent, daemon=True).start()
     _limit_memory()
     os.chdir(setting.folder)
-    for module in WARM:
-        __import__(module)
+    to_load = _list_loads()
     while True:
         try:
+            while to_load and not pipe.poll(IDLE):
+                to_load.pop(0)()
             name, request = pipe.recv()
         except (EOFError, OSError):
             return
@@ -131,6 +137,14 @@ def _answer(call: Call, request: Json, progress: Progress, setting: Setting) -> 
         sentence = f"the program made a mistake ({type(reason).__name__}); {TROUBLES} says more"
         return ("failure", 500, sentence)
     return ("answer", answer)
+
+
+def _list_loads() -> list[Callable[[], object]]:
+    """What a worker loads while it has nothing to do, in small parts."""
+    return [
+        *(partial(import_module, name) for name in LIBRARIES),
+        *(call.load for call in CALLS.values()),
+    ]
 
 
 def _keep(text: str) -> None:
