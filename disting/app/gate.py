@@ -6,7 +6,6 @@ form, a script, or a name that leads to 127.0.0.1) and no other user of the mach
 """
 
 import hmac
-import re
 from collections.abc import Awaitable, Callable, MutableMapping
 from dataclasses import dataclass, field
 from functools import cache
@@ -15,7 +14,7 @@ from secrets import token_urlsafe
 from typing import Any
 from urllib.parse import parse_qs
 
-from disting.report.environment import environment, source, source_of
+from disting.report.environment import scripts_of
 
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]
@@ -36,7 +35,6 @@ EVERY = {
     "referrer-policy": "no-referrer",
     "x-content-type-options": "nosniff",
 }
-SCRIPT = re.compile(r"\{% call policy\.script\(\) %\}(.*?)\{% endcall %\}", re.DOTALL)
 WRITTEN = ("site.html", "fit.html", "fit-networks.html", "fit-question.html", "plan.html")
 
 
@@ -69,17 +67,11 @@ def page_policy() -> str:
     """Policy of the pages in the project folder: of all scripts only those run that the templates
     of this version write, whoever wrote the page.
     """
-    hashes = sorted({source_of(text) for name in WRITTEN for text in _scripts(name)})
+    hashes = sorted({script for name in WRITTEN for script in scripts_of(name)})
     return (
         f"default-src 'none'; script-src {' '.join(hashes)}; style-src 'unsafe-inline';"
         " img-src 'self' data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
     )
-
-
-def _scripts(template: str) -> list[str]:
-    """Texts of the scripts of a template."""
-    env = environment()
-    return [env.from_string(block).render() for block in SCRIPT.findall(source(template))]
 
 
 class Gate:
