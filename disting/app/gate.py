@@ -22,6 +22,7 @@ Receive = Callable[[], Awaitable[Message]]
 Send = Callable[[Message], Awaitable[None]]
 Asgi = Callable[[Scope, Receive, Send], Awaitable[None]]
 HOST = "127.0.0.1"
+ONCE = ("host", "origin", "cookie", "sec-fetch-site", "content-type")
 UNCHANGING = ("GET", "HEAD")
 SHELL_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:;"
@@ -145,7 +146,7 @@ class Gate:
 def _headers(scope: Scope) -> dict[str, str] | None:
     """Headers by name; None where one that decides is given twice."""
     names = [name.decode("latin-1").lower() for name, _ in scope["headers"]]
-    if any(names.count(name) > 1 for name in ("host", "origin", "cookie", "sec-fetch-site")):
+    if any(names.count(name) > 1 for name in ONCE):
         return None
     return dict(zip(names, (v.decode("latin-1") for _, v in scope["headers"]), strict=True))
 

@@ -115,8 +115,13 @@ def list_files(request: Json) -> Json:
     """Return the measured files of the project, by name."""
     folder = inside(Path(), "data")
     paths = sorted(folder.iterdir()) if folder.is_dir() else []
-    named = [path for path in paths if path.is_file() and not path.name.startswith(".")]
-    return {"files": [{"name": path.name, "size": path.stat().st_size} for path in named]}
+    own = [path for path in paths if _is_own(path, folder) and not path.name.startswith(".")]
+    return {"files": [{"name": path.name, "size": path.stat().st_size} for path in own]}
+
+
+def _is_own(path: Path, folder: Path) -> bool:
+    """Return True for a file that lies in a folder, also behind a link."""
+    return path.resolve().is_relative_to(folder.resolve()) and path.is_file()
 
 
 def fit_numbers(folder: Path) -> Iterator[int]:

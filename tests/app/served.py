@@ -43,7 +43,7 @@ class Served:
             "Content-Type": "application/json",
             "Cookie": self.cookie if cookie is None else cookie,
         }
-        own |= {name.replace("_", "-"): value for name, value in headers.items()}
+        own |= {name.replace("_", "-").title(): value for name, value in headers.items()}
         connection = http.client.HTTPConnection(self.netloc, timeout=STARTS)
         try:
             connection.request(

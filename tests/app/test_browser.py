@@ -175,8 +175,9 @@ def test_a_fit_is_stopped_and_a_closed_page_finds_its_fit_again(own, visit):
 def test_what_cannot_be_read_is_said_and_the_way_back_is_there(own, visit):
     tab = visit(own)
     drop(tab, "letter.csv", b"Dear Sir,\nthank you.\n")
-    is_seen(tab, "letter.csv")
-    assert tab.locator("#read .warning").count() == 1 and tab.locator("#fit").is_hidden()
+    tab.wait_for_selector("#read .warning")
+    assert "letter.csv" in tab.locator("#read .warning").inner_text()
+    assert tab.locator("#fit").is_hidden()
     drop(tab, "bench.csv", bench_csv())
     tab.wait_for_selector("#diagram circle")
     tab.fill("#field-band-0", "many")

@@ -83,9 +83,10 @@ def test_a_changing_request_names_its_origin():
     assert answered(without, "GET")[0] == 200
 
 
-@pytest.mark.parametrize("doubled", ["host", "origin", "cookie"])
+@pytest.mark.parametrize("doubled", ["host", "origin", "cookie", "content-type"])
 def test_a_header_that_decides_is_given_once(doubled):
-    assert answered([*OWN.items(), (doubled, OWN[doubled])])[0] == 400
+    own = OWN | {"content-type": "application/json"}
+    assert answered([*own.items(), (doubled, own[doubled])])[0] == 400
 
 
 @pytest.mark.parametrize("query", ["token=", "token=wrong", "Token=token", "&".join(["a=1"] * 30)])

@@ -120,6 +120,8 @@ def test_measured_files_are_listed_without_hidden_ones(tmp_path, monkeypatch):
     (tmp_path / "data").mkdir()
     (tmp_path / "data" / "b.csv").write_text("12")
     (tmp_path / "data" / ".a.partial").write_text("1")
+    (tmp_path / "secret.csv").write_text("123")
+    (tmp_path / "data" / "link.csv").symlink_to(tmp_path / "secret.csv")
     assert list_files({}) == {"files": [{"name": "b.csv", "size": 2}]}
 
 

@@ -135,7 +135,7 @@ export const start = async (root, call) => {
       look.doubts.map((doubt) => element("p", { class: "warning" }, doubt)),
       fieldsOf(seen, measurement.reading, again(measurement), trouble, merged), places(measurement, chosen),
       picture ? element("figure", { class: "panel" }, picture, element("figcaption", { class: "hint" }, diagram.wide ? "Bars: 95 % of the scatter of a line." : "The scatter of the lines is not known.")) : null,
-      look.assumed.length ? element("h3", {}, "Assumed") : null, list(look.assumed.map(({ what, option }) => `${what} (else ${option})`), "near"),
+      look.assumed.length ? element("h3", {}, "Assumed: change it above where it is wrong") : null, list(look.assumed.map(({ what }) => what), "near"),
       facts(seen.facts), element("details", {}, element("summary", {}, "Columns"), columnTable(look)),
       element("details", {}, element("summary", {}, "The same on the command line"), command(seen.command))));
     redraw = () => { if (picture?.clientWidth) draw(picture, diagram); };

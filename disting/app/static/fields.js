@@ -22,7 +22,7 @@ const rows = ({ look, responses }) => {
     ["output", "Output", "choice", columns, look.columns.find((c) => c.role === "output" && c.used)?.name ?? "", false, record],
     ["reference", "Reference of the controller", "choice", columns, look.columns.find((c) => c.role === "reference" && c.used)?.name ?? "none", false, record],
     ["sampling_rate", "Sampling rate", "number", "Hz", look.record?.sampling_rate ?? "", isAssumed(look, "sampling"), record],
-    ["quantity", "Quantity of the sensor", "choice", QUANTITIES.map((q) => [q, q]), look.quantity ?? "", isAssumed(look, "quantity"), !look.impedance],
+    ["quantity", "Quantity", "choice", QUANTITIES.map((q) => [q, q]), look.quantity ?? "", isAssumed(look, "quantity"), !look.impedance],
     ["units.frequency", "Frequency unit", "choice", UNITS.frequency.map((u) => [u, u]), unitOf(look, "frequency"), isAssumed(look, "frequency"), !record],
     ["units.magnitude", "Magnitude unit", "choice", UNITS.magnitude.map((u) => [u, u]), unitOf(look, "magnitude"), isAssumed(look, "gain") || isAssumed(look, "magnitude"), look.columns.some((c) => c.used && c.role === "gain")],
     ["units.phase", "Phase unit", "choice", UNITS.phase.map((u) => [u, u]), unitOf(look, "phase"), isAssumed(look, "phase"), look.columns.some((c) => c.used && c.role === "phase")],
@@ -66,7 +66,8 @@ const text = (id, list, asRead, value) => [
   element("input", { id, type: "text", list: `${id}-list`, value: value ?? "", placeholder: asRead === "" ? "as read" : String(asRead), maxlength: 40, autocomplete: "off", spellcheck: "false" }),
   element("datalist", { id: `${id}-list` }, list.map((own) => element("option", { value: own }))),
 ];
-const number = (id, asRead, value) => element("input", { id, type: "text", inputmode: "decimal", value: value ?? "", placeholder: String(asRead), maxlength: 40, autocomplete: "off" });
+const readable = (x) => (typeof x === "number" ? String(+x.toPrecision(6)) : x);
+const number = (id, asRead, value) => element("input", { id, type: "text", inputmode: "decimal", value: value ?? "", placeholder: readable(asRead), maxlength: 40, autocomplete: "off" });
 
 // The fields of a reading; `onChange(reading)` hears of a change, `onTrouble(sentence)` of what is no number.
 export const fieldsOf = (seen, reading, onChange, onTrouble, shown = seen.look) => element("div", { class: "fields" }, rows({ ...seen, look: shown }).map(([name, label, kind, more, asRead, assumed]) => {
