@@ -6,20 +6,21 @@ gives it too. They are several calls, so that the drawing need not wait for a de
 """
 
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from itertools import cycle, islice
 
 from disting.app.interface import Json
 from disting.app.parts import parts_of, text_of
 from disting.catalogs import lookalikes
 from disting.catalogs.lookalikes import Lookalikes
+from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, next_catalog
 from disting.decide.identifiability import Identifiability
-from disting.equivalence.inputs import point_of
 from disting.errors import InputError
 from disting.experiments.experiment import Experiment, places_of
-from disting.general.any_model import AnyModel, as_chain, of_network
+from disting.general.any_model import as_chain, of_network
+from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Sort
-from disting.model.names import NAME, name_of, read_together
+from disting.model.names import NAME, name_of, read, read_together
 from disting.network.chains import of_chain
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of, values_in
@@ -28,11 +29,11 @@ from disting.report.scene import PAGE_PALETTE, Scene, body, number
 from disting.store import Store
 from disting.verdict.comparison import identifiability
 from disting.verdict.engine import Engine
+from disting.verdict.identifiable import Identified
 from disting.verdict.next_experiments import menu_for
-from disting.verdict.next_words import anywhere, conclusion, group_in_words
+from disting.verdict.next_words import AnyMenu, anywhere, conclusion, group_in_words
 
 EXAMPLE = "write a machine such as 1=2=3; F1; S3, or a circuit such as R0-p(R1,C1)"
-MOST_NEXT = 8  # models of which a menu is made at once
 # values that are shown first, in kg, N/m, N s/m, ohm, H, F, ..: no two springs with one ratio k/d,
 # which would make more models equivalent
 START = {
@@ -90,7 +91,17 @@ def draw_machine(request: Json) -> Json:
         "parameters": list(names_of_values(model)),
         "values": start_values(model, text, request.get("notation", "")),
         "unseen": [] if network is None else list(network.unseen),
+        "sensors": free_masses(model),
     }
+
+
+def free_masses(model: Chain | AnyModel) -> list[int]:
+    """Return the masses at which a further sensor may be placed, of machines with one sensor."""
+    network = network_behind(model)
+    if network is None or network.sort is not Sort.MACHINE or network.shape != (1, 1):
+        return []
+    taken = {p.plus for p in network.outputs if not p.minus}
+    return [i for i in places_of(network) if i not in taken]
 
 
 def drawing(scene: Scene | None) -> str:
@@ -134,69 +145,65 @@ def determine(request: Json) -> Json:
     model = model_of(request["text"], request.get("notation", ""))
     with Store.open(None) as store:
         found = identifiability(model, engine=Engine(store=store))
-    whole = isinstance(found, Identifiability)
-    certainty, safety = found.rank_grade if whole else (found.certainty, found.safety)
+    basis = found.basis if isinstance(found, Identifiability) else ()
     return {
         "sentence": found.sentence,
         "rank": found.rank,
         "levels": [{"name": n, "level": level.value} for n, level in found.levels.items()],
-        "combinations": [c.text for c in found.basis] if whole and found.freedom else [],
-        "certainty": certainty.in_words(safety),
+        "combinations": [c.text for c in basis] if found.freedom else [],
+        "certainty": _certainty(found),
         "reason": found.reason,
         "command": command("models", *words_of(request)),
     }
 
 
 def find_alike(request: Json) -> Json:
-    """Return the models of a shipped catalogue that are not distinguishable from one, by name."""
+    """Return the models of the shipped catalogues that are not distinguishable from one, by name,
+    catalogue after catalogue.
+    """
     model = model_of(request["text"], request.get("notation", ""))
-    found = row_of(model)
-    if found is None:
-        return {
-            "listed": False,
-            "sentence": "No catalogue lists this model. Compare it with another one on the page"
-            " Two models.",
-            "others": [],
-            "command": "",
-        }
+    return {"rows": [_row(model, found, request) for found in rows_of(model)]}
+
+
+def rows_of(model: Chain | AnyModel) -> Iterator[Lookalikes]:
+    """Yield the rows of a model in the shipped catalogues: chains have one of their own, as some
+    have a mass without a spring, which no other catalogue lists.
+    """
+    network, chain = network_behind(model), as_chain(model)
+    if chain is not None:
+        yield from filter(None, [lookalikes.of_chain(chain)])
+    if network is not None:
+        yield from filter(None, [lookalikes.of_network(network)])
+
+
+def _row(model: Chain | AnyModel, found: Lookalikes, request: Json) -> Json:
     others = [
         {"name": name, "relation": relation.value, "drawing": drawing(scene_of(model_of(name)))}
         for name, relation in found.others.items()
     ]
     return {
-        "listed": True,
+        "title": found.title,
         "sentence": sentence_of(found),
         "others": others,
         "command": command_for_alike(model, found, request),
     }
 
 
-def row_of(model: Chain | AnyModel) -> Lookalikes | None:
-    """Return the row of a model in a shipped catalogue: of chains of four masses and more, which no
-    other one lists with dampers, that of chains.
-    """
-    network, chain = network_behind(model), as_chain(model)
-    found = lookalikes.of_network(network) if network is not None else None
-    return found or (lookalikes.of_chain(chain) if chain is not None else None)
-
-
 def sentence_of(found: Lookalikes) -> str:
-    """Return the result of the look-up in words."""
-    title = f"{found.title[0].lower()}{found.title[1:]}"
-    if not found.others:
-        return f"All other {found.size - 1} models are distinguishable from it ({title})."
-    are = "is" if len(found.others) == 1 else "are"
-    return (
-        f"{len(found.others)} of {found.size - 1} other models {are} not distinguishable from it"
-        f" ({title})."
-    )
+    """Return the result of a look-up in words."""
+    rest, count = found.size - 1, len(found.others)
+    if not count:
+        return f"All other {rest} models are distinguishable from it."
+    are = "is" if count == 1 else "are"
+    return f"{count} of {rest} other models {are} not always distinguishable from it."
 
 
 def command_for_alike(model: Chain | AnyModel, found: Lookalikes, request: Json) -> str:
     """Return the command that lists the same models with their values."""
     values = start_values(model, request["text"], request.get("notation", ""))
-    values |= request.get("values", {})
-    given = ",".join(f"{name}={value}" for name, value in values.items())
+    given = ",".join(
+        f"{name}={value}" for name, value in (values | request.get("values", {})).items()
+    )
     if found.family.isdecimal():
         chain = as_chain(model)
         damping = [] if chain is None or chain.damped else ["--undamped"]
@@ -204,64 +211,63 @@ def command_for_alike(model: Chain | AnyModel, found: Lookalikes, request: Json)
     return command("equivalents", *words_of(request), "--family", found.family, "--set", given)
 
 
-def advise(request: Json) -> Json:
-    """Return what to measure next: what separates a model from those that look the same, and which
-    further sensor determines more of its parameters.
+def separate(request: Json) -> Json:
+    """Return what to measure next to separate a model from others that are indistinguishable from
+    it.
     """
-    model = model_of(request["text"], request.get("notation", ""))
-    with Store.open(None) as store:
-        engine = Engine(store=store)
-        return {
-            "separate": _separate(model, request, engine),
-            "determine": [*_further_sensors(model, request, engine)],
-        }
-
-
-def _separate(model: Chain | AnyModel, request: Json, engine: Engine) -> Json | None:
-    """What separates the model from others that are indistinguishable from it; None where there
-    are none.
-    """
-    others = request.get("others", [])[: MOST_NEXT - 1]
-    if not others:
-        return None
-    named = [(request["text"].strip(), model), *((name, model_of(name)) for name in others)]
-    chains = [(name, chain) for name, m in named if (chain := as_chain(m)) is not None]
-    if len(chains) == len(named):
-        group = [(name_of(chain), chain) for _, chain in chains]
-        menu = menu_for(group, engine)
-    else:
-        networks = [(name, network_behind(m)) for name, m in named]
-        menu = menu_for([(name, n) for name, n in networks if n is not None], engine)
-    every = anywhere(menu)
+    models = [model_of(text) for text in (request["text"], *request["others"])]
+    menu = _menu(models, [request["text"].strip(), *request["others"]])
+    every, damped = anywhere(menu), [c.damped for m in models if (c := as_chain(m)) is not None]
+    options = [] if all(damped) or not isinstance(models[-1], Chain) else ["--undamped"]
     return {
         "sentence": f"Separates all of them: {every}." if every else f"{group_in_words(menu)}.",
         "least": conclusion(menu, 0),
-        "command": command("next", *menu.names),
+        "command": command("next", *menu.names, *options),
     }
 
 
-def _further_sensors(model: Chain | AnyModel, request: Json, engine: Engine) -> Iterator[Json]:
-    """Yield what a further sensor at each mass that has none would determine."""
-    network = network_behind(model)
-    is_machine = network is not None and network.sort is Sort.MACHINE
-    if network is None or not is_machine or network.shape != (1, 1):
-        return
-    before = identifiability(model, engine=engine)
-    taken = {p.plus for p in network.outputs if not p.minus}
-    for mass in places_of(network) if before.level.value != "global" else ():
-        if mass in taken:
-            continue
-        both = [Experiment(), Experiment(sensor=mass)]
-        found = identifiability(model, experiments=both, engine=engine)
-        yield {
-            "mass": mass,
-            "rank": found.rank,
-            "count": len(found.levels),
-            "is_global": found.level.value == "global",
-            "sentence": found.sentence,
-            "certainty": found.certainty.in_words(found.safety),
-            "command": command("models", *words_of(request), "--also", f"sensor={mass}"),
-        }
+def _menu(models: Sequence[Chain | AnyModel], texts: Sequence[str]) -> AnyMenu:
+    """The menu of a group: of chains that a catalogue has, from there."""
+    chains = [chain for m in models if (chain := as_chain(m)) is not None]
+    with Store.open(None) as store:
+        if len(chains) == len(models):
+            names = [name_of(chain) for chain in chains]
+            stored = _stored_menu(chains)
+            return stored or menu_for(list(zip(names, chains, strict=True)), Engine(store=store))
+        named = zip(texts, map(network_behind, models), strict=True)
+        networks = [(text, network) for text, network in named if network is not None]
+        return menu_for(networks, Engine(store=store))
+
+
+def _stored_menu(chains: Sequence[Chain]) -> AnyMenu | None:
+    """The menu of a shipped catalogue; None where there is none."""
+    (n, damped), *more = dict.fromkeys((chain.n_masses, chain.damped) for chain in chains)
+    names = [read(name_of(chain)) for chain in chains]
+    if more or n not in NEXT_SIZES or not all(name.is_plain for name in names):
+        return None
+    return next_catalog(n, damped=damped).further([name.number for name in names])
+
+
+def add_sensor(request: Json) -> Json:
+    """Return which parameters a further sensor at a mass determines beside the present one."""
+    model = model_of(request["text"], request.get("notation", ""))
+    both, mass = [Experiment(), Experiment(sensor=request["mass"])], request["mass"]
+    with Store.open(None) as store:
+        found = identifiability(model, experiments=both, engine=Engine(store=store))
+    return {
+        "sentence": found.sentence,
+        "level": found.level.value,
+        "certainty": _certainty(found),
+        "command": command("models", *words_of(request), "--also", f"sensor={mass}"),
+    }
+
+
+def _certainty(found: Identified) -> str:
+    """Certainty of an identifiability in words."""
+    certainty, safety = (
+        found.rank_grade if isinstance(found, Identifiability) else (found.certainty, found.safety)
+    )
+    return certainty.in_words(safety)
 
 
 def words_of(request: Json) -> list[str]:
@@ -278,13 +284,3 @@ def command(name: str, *words: str) -> str:
     "disting models '1=2; F1; S1'"
     """
     return shlex.join(["disting", name, *words])
-
-
-def exact_values(model: Chain | AnyModel, values: Mapping[str, str]) -> dict[str, str]:
-    """Return the values of all parameters of a model; raises InputError for wrong names and for
-    what is no positive number.
-    """
-    network = network_behind(model)
-    if network is not None:
-        point_of(network, values)
-    return dict(values)

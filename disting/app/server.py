@@ -42,7 +42,17 @@ from disting.files import unique_keys
 from disting.report.environment import source
 
 STATIC = Path(__file__).parent / "static"
-SITE = ("style.css", "fit.css", "axes.css", "axes.js", "motion-machine.js", "motion.css", "copy.js")
+SITE = (
+    "style.css",
+    "fit.css",
+    "axes.css",
+    "axes.js",
+    "motion-machine.js",
+    "motion-run.js",
+    "motion-graph.js",
+    "motion.css",
+    "copy.js",
+)
 LARGEST_REQUEST = 2**20  # bytes of a JSON request
 LARGEST_FILE = 200 * 10**6  # bytes of a measured file
 MOST_FILES = 1000  # of a project

@@ -3,6 +3,8 @@ import { call } from "./call.js";
 
 const PAGES = [
   ["data", "Data", "./data.js"],
+  ["machine", "Machine", "./machine.js"],
+  ["compare", "Two models", "./compare.js"],
 ];
 
 const tabs = document.getElementById("tabs"), pages = document.getElementById("pages");
