@@ -5,13 +5,13 @@ since it uses all processors, others wait in order. Both are bounded in number, 
 """
 
 import asyncio
-import json
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 
 from disting.app.interface import Call, Json
 from disting.app.workers import Failure, Setting, Worker
+from disting.files import json_text
 
 WAITING = 64  # quick calls that may wait
 QUEUED = 16  # jobs that may wait or run
@@ -192,7 +192,7 @@ async def watch(job: Job) -> AsyncIterator[bytes]:
 
 
 def _event(name: str, content: Json) -> bytes:
-    return f"event: {name}\ndata: {json.dumps(content, allow_nan=False)}\n\n".encode()
+    return f"event: {name}\ndata: {json_text(content)}\n\n".encode()
 
 
 def _silent(*_: object) -> None:

@@ -29,7 +29,7 @@ from jsonschema.exceptions import best_match
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
+from starlette.responses import FileResponse, Response, StreamingResponse
 from starlette.routing import Route
 
 from disting.app.gate import HOST, Asgi, Gate, Keys, page_policy
@@ -38,7 +38,7 @@ from disting.app.jobs import Job, Jobs, Pool, watch, working
 from disting.app.project import check_name, free_name, inside
 from disting.app.workers import Failure, Setting
 from disting.errors import DistingError, InputError, brief, short
-from disting.files import unique_keys
+from disting.files import json_text, unique_keys
 from disting.report.environment import source
 
 STATIC = Path(__file__).parent / "static"
@@ -63,7 +63,7 @@ SHOWN = (".html", ".svg", ".png", ".pdf")  # files that a browser shows; others 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """What the addresses share."""
+    """Folder and workers that the addresses share."""
 
     folder: Path
     pool: Pool
@@ -92,12 +92,12 @@ def make_app(setting: Setting, keys: Keys) -> Asgi:
         Route("/project/fits/{number:int}/{name}", fit_file),
     ]
     handlers: dict[Any, Any] = {
-        Failure: _failed,
-        DistingError: _refused,
-        OSError: _not_possible,
-        HTTPException: _not_found,
-        ClientDisconnect: _gone,
-        Exception: _mistaken,
+        Failure: _on_failure,
+        DistingError: _on_refusal,
+        OSError: _on_system_error,
+        HTTPException: _on_http_error,
+        ClientDisconnect: _on_disconnect,
+        Exception: _on_mistake,
     }
     return Gate(Starlette(routes=routes, exception_handlers=handlers, lifespan=lifespan), keys)
 
@@ -163,14 +163,14 @@ async def call(request: Request) -> Response:
     content = await _json(request)
     _check(content, wanted.name)
     if wanted.is_job:
-        return JSONResponse({"job": own.jobs.begin(wanted, content).number}, 202)
-    return JSONResponse(await own.pool.answer(wanted, content))
+        return _answer({"job": own.jobs.begin(wanted, content).number}, 202)
+    return _answer(await own.pool.answer(wanted, content))
 
 
 async def jobs_list(request: Request) -> Response:
     """States of the jobs."""
     own: State = request.app.state.own
-    return JSONResponse({"jobs": [job.to_dict() for job in own.jobs.every.values()]})
+    return _answer({"jobs": [job.to_dict() for job in own.jobs.every.values()]})
 
 
 async def job_events(request: Request) -> Response:
@@ -183,7 +183,7 @@ async def job_stop(request: Request) -> Response:
     own: State = request.app.state.own
     job = _job(request)
     own.jobs.stop(job)
-    return JSONResponse(job.to_dict())
+    return _answer(job.to_dict())
 
 
 async def upload(request: Request) -> Response:
@@ -202,7 +202,7 @@ async def upload(request: Request) -> Response:
         kept = _place(folder, beside, name)
     finally:
         beside.unlink(missing_ok=True)
-    return JSONResponse({"name": kept, "size": size})
+    return _answer({"name": kept, "size": size})
 
 
 async def fit_file(request: Request) -> Response:
@@ -298,30 +298,34 @@ def _job(request: Request) -> Job:
     return job
 
 
+def _answer(content: Json, status: int = 200) -> Response:
+    return Response(json_text(content), status, media_type="application/json")
+
+
 def _error(status: int, sentence: str) -> Response:
-    return JSONResponse({"error": brief(sentence)}, status)
+    return _answer({"error": brief(sentence)}, status)
 
 
-async def _failed(request: Request, reason: Failure) -> Response:
+async def _on_failure(request: Request, reason: Failure) -> Response:
     return _error(reason.status, reason.message)
 
 
-async def _refused(request: Request, reason: DistingError) -> Response:
+async def _on_refusal(request: Request, reason: DistingError) -> Response:
     return _error(422, str(reason))
 
 
-async def _not_possible(request: Request, reason: OSError) -> Response:
+async def _on_system_error(request: Request, reason: OSError) -> Response:
     return _error(507, str(reason.strerror or reason))
 
 
-async def _not_found(request: Request, reason: HTTPException) -> Response:
+async def _on_http_error(request: Request, reason: HTTPException) -> Response:
     words = {404: "there is nothing at this address", 405: "this method is not supported here"}
     return _error(reason.status_code, words.get(reason.status_code, reason.detail))
 
 
-async def _mistaken(request: Request, reason: Exception) -> Response:
+async def _on_mistake(request: Request, reason: Exception) -> Response:
     return _error(500, f"the program made a mistake ({type(reason).__name__})")
 
 
-async def _gone(request: Request, reason: ClientDisconnect) -> Response:
+async def _on_disconnect(request: Request, reason: ClientDisconnect) -> Response:
     return _error(400, "the request ended early")

@@ -140,7 +140,7 @@ def _answer(call: Call, request: Json, progress: Progress, setting: Setting) -> 
 
 
 def _list_loads() -> list[Callable[[], object]]:
-    """What a worker loads while it has nothing to do, in small parts."""
+    """Imports of a worker while it has nothing to do, in small parts."""
     return [
         *(partial(import_module, name) for name in LIBRARIES),
         *(call.load for call in CALLS.values()),

@@ -168,7 +168,7 @@ SCHEMA = Command(
 )
 APP = Command(
     "app",
-    "open a local page: read a file, look at it, fit it",
+    "open a page in the browser: read a measured file, fit it",
     "app",
     examples=("disting app", "disting app bench --port 8000 --no-browser"),
 )

@@ -7,7 +7,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import quote
@@ -86,12 +86,15 @@ class Served:
 
 
 @contextmanager
-def serving(folder: Path, *words: str) -> Iterator[Served]:
+def serving(
+    folder: Path, *words: str, before: Callable[[], None] | None = None
+) -> Iterator[Served]:
+    """A server of a folder until the block ends; `before` runs first in its process."""
     process = subprocess.Popen(
         [sys.executable, "-m", "disting", "app", str(folder), "--no-browser", *words],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=folder.parent,
         env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])},
-        start_new_session=True,
+        start_new_session=True, preexec_fn=before,
     )  # fmt: skip
     try:
         assert process.stdout is not None

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from resource import RLIMIT_FSIZE, setrlimit
 
 import pytest
 from jsonschema import validate
@@ -224,6 +225,21 @@ def test_a_killed_server_loses_no_finished_fit_and_no_worker_outlives_it(tmp_pat
         assert [found["fit"] for found in again.call("fits", {})[1]["fits"]] == [first]
         content = again.call("open", {"page": "data"})[1]["content"]
         assert content == {"measurements": [VELOCITY]}
+
+
+def test_a_full_disk_is_one_sentence_and_leaves_what_was_there(tmp_path):
+    """No file may grow beyond ten kilobytes, as on a full disk."""
+    with serving(
+        tmp_path / "project", before=lambda: setrlimit(RLIMIT_FSIZE, (10_000,) * 2)
+    ) as own:
+        assert own.upload("bench.csv", bench_csv())[0] == 200
+        status, answer = own.upload("large.csv", b"1,2\n" * 10_000)
+        assert status == 507 and answer == {"error": "File too large"}
+        assert own.call("save", {"page": "data", "content": {"a": 1}})[0] == 200
+        status, answer = own.call("save", {"page": "data", "content": {"a": "x" * 20_000}})
+        assert status == 507 and "File too large" in answer["error"]
+        assert own.call("open", {"page": "data"})[1] == {"content": {"a": 1}}
+        assert [path.name for path in (tmp_path / "project" / "data").iterdir()] == ["bench.csv"]
 
 
 def test_without_the_extra_one_sentence_names_it():
