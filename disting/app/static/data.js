@@ -5,7 +5,7 @@ import { fieldsOf } from "./fields.js";
 import { fitSection } from "./fit.js";
 import { draw } from "./plot.js";
 
-const PAUSE = 150; // milliseconds without a change after which a file is read again
+const PAUSE = 250; // milliseconds without a change after which a file is read again
 const LARGEST = 200e6; // bytes of a file
 
 const heading = (id, text) => element("h2", { id }, text);
@@ -112,26 +112,37 @@ export const start = async (root, call) => {
     }
   }
 
-  const again = (measurement) => (reading) => {
-    measurement.reading = reading;
-    save();
+  const again = (measurement) => (edit) => {
+    measurement.reading = edit(measurement.reading);
+    asked += 1; // an answer to an older reading is not shown
+    fitting.wait();
     clearTimeout(timer);
-    timer = setTimeout(show, PAUSE);
+    timer = setTimeout(() => { save(); show(); }, PAUSE);
+  };
+
+  // Draw anew around the field in which somebody is writing.
+  const replace = (part) => {
+    const { id, value, selectionStart } = document.activeElement ?? {};
+    seenPart.replaceChildren(part);
+    const input = id && seenPart.querySelector(`#${id}`);
+    if (!input) return;
+    input.focus();
+    if (input.type === "text") { input.value = value; input.setSelectionRange(selectionStart, selectionStart); }
   };
 
   function refuse(measurement, sentence) {
-    const reset = element("button", { type: "button", class: "plainbutton", onclick: () => again(measurement)({}) }, "Read it without these settings");
+    const reset = element("button", { type: "button", class: "plainbutton", onclick: () => again(measurement)(() => ({})) }, "Read it without these settings");
     const plain = first.get(measurement.file);
     const fields = plain && Object.keys(measurement.reading).length ? [fieldsOf(plain, measurement.reading, again(measurement), trouble), element("p", {}, reset)] : [];
-    seenPart.replaceChildren(section("read", `What was read: ${measurement.file}`, element("p", { class: "warning", role: "alert" }, sentence), ...fields));
+    replace(section("read", `What was read: ${measurement.file}`, element("p", { class: "warning", role: "alert" }, sentence), ...fields));
     fitting.show(null);
   }
 
   function render(measurement, seen, plain) {
-    const focused = document.activeElement?.id, { look, diagram } = seen;
+    const { look, diagram } = seen;
     const merged = { ...plain.look, record: look.record ?? plain.look.record, quantity: look.quantity, assumed: look.assumed, impedance: look.impedance, columns: look.columns };
     const picture = diagram ? svg("svg", { id: "diagram", class: `plot ${diagram.kind}`, role: "img" }) : null;
-    seenPart.replaceChildren(section("read", `What was read: ${measurement.file}`,
+    replace(section("read", `What was read: ${measurement.file}`,
       look.doubts.map((doubt) => element("p", { class: "warning" }, doubt)),
       fieldsOf(seen, measurement.reading, again(measurement), trouble, merged), places(measurement, chosen),
       picture ? element("figure", { class: "panel" }, picture, element("figcaption", { class: "hint" }, diagram.wide ? "Bars: 95 % of the scatter of a line." : "The scatter of the lines is not known.")) : null,
@@ -140,8 +151,6 @@ export const start = async (root, call) => {
       element("details", {}, element("summary", {}, "The same on the command line"), command(seen.command))));
     redraw = () => { if (picture?.clientWidth) draw(picture, diagram); };
     redraw();
-    if (focused && document.getElementById(focused)) document.getElementById(focused).focus();
-    trouble("");
     announce(diagram ? picture.getAttribute("aria-label") : "No response was read.");
     fitting.show(seen);
   }

@@ -69,8 +69,9 @@ const text = (id, list, asRead, value) => [
 const readable = (x) => (typeof x === "number" ? String(+x.toPrecision(6)) : x);
 const number = (id, asRead, value) => element("input", { id, type: "text", inputmode: "decimal", value: value ?? "", placeholder: readable(asRead), maxlength: 40, autocomplete: "off" });
 
-// The fields of a reading; `onChange(reading)` hears of a change, `onTrouble(sentence)` of what is no number.
-export const fieldsOf = (seen, reading, onChange, onTrouble, shown = seen.look) => element("div", { class: "fields" }, rows({ ...seen, look: shown }).map(([name, label, kind, more, asRead, assumed]) => {
+// The fields of a reading. `onEdit(edit)` hears of a change, which `edit(reading)` makes: several may come before the
+// fields are drawn anew. `onTrouble(sentence)` hears of what is no number.
+export const fieldsOf = (seen, reading, onEdit, onTrouble, shown = seen.look) => element("div", { class: "fields" }, rows({ ...seen, look: shown }).map(([name, label, kind, more, asRead, assumed]) => {
   const id = `field-${name.replace(".", "-")}`, value = valueOf(reading, name), isBand = name.startsWith("band");
   const own = isBand && (value === 0 || value === 1e9) ? undefined : value;
   const inputs = kind === "choice" ? choice(id, more, asRead, own) : kind === "text" ? text(id, more, asRead, own) : number(id, asRead, own);
@@ -78,7 +79,7 @@ export const fieldsOf = (seen, reading, onChange, onTrouble, shown = seen.look) 
   const marked = assumed && value === undefined;
   const field = element("p", { class: marked ? "field assumed" : "field" },
     element("label", { for: id }, label, kind === "number" && more ? ` [${more}]` : "", marked ? element("strong", {}, " assumed") : null), inputs);
-  input.addEventListener("change", () => {
+  input.addEventListener(kind === "choice" ? "change" : "input", () => {
     let next = input.value.trim();
     if (kind === "number" && next !== "") {
       next = Number(next.replace(",", "."));
@@ -88,8 +89,10 @@ export const fieldsOf = (seen, reading, onChange, onTrouble, shown = seen.look) 
         return;
       }
     }
+    input.removeAttribute("aria-invalid");
+    onTrouble("");
     if (name === "column" && next !== "") next = Number(next);
-    onChange(changed(reading, name, next, shown));
+    onEdit((own) => changed(own, name, next, shown));
   });
   return field;
 }));
