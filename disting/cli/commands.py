@@ -166,8 +166,15 @@ SCHEMA = Command(
     "print_schema",
     "add_schema_arguments",
 )
+APP = Command(
+    "app",
+    "open a page in the browser: read a measured file, fit it",
+    "app",
+    examples=("disting app", "disting app bench --port 8000 --no-browser"),
+)
 SECTIONS: dict[str, tuple[Command | Group, ...]] = {
     "measure and fit": (
+        APP,
         LOOK,
         FIT,
         Command(

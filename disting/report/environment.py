@@ -22,6 +22,7 @@ from disting.files import __version__
 from disting.report.scene import FILE_PALETTE
 
 BESIDE = "'self' file:"  # of a page that is opened from a disk not every browser knows 'self'
+SCRIPT = re.compile(r"\{% call policy\.script\(\) %\}.*?\{% endcall %\}", re.DOTALL)
 ATTRIBUTE = re.compile(r' style="([^"]*)"')
 
 
@@ -33,6 +34,11 @@ class Policy:
     def __init__(self) -> None:
         self._scripts: dict[str, None] = {}
         self._styles: dict[str, None] = {}
+
+    @property
+    def scripts(self) -> tuple[str, ...]:
+        """Source expressions of the scripts so far."""
+        return tuple(self._scripts)
 
     def script(self, caller: Callable[[], str]) -> Markup:
         """A script of the template."""
@@ -79,6 +85,18 @@ def render(template: str, **values: object) -> str:
     """Text of a template; a whole page states what it may do."""
     policy = Policy()
     return policy.of(environment().get_template(template).render(policy=policy, **values))
+
+
+def scripts_of(template: str) -> tuple[str, ...]:
+    """Source expressions of the scripts that a template writes, whatever the page.
+
+    >>> len(scripts_of("fit.html"))
+    1
+    """
+    policy = Policy()
+    for block in SCRIPT.findall(source(template)):
+        environment().from_string(block).render(policy=policy)
+    return policy.scripts
 
 
 def source(template: str) -> str:

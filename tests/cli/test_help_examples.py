@@ -14,6 +14,7 @@ EXAMPLES = [
     for command in section
     if isinstance(command, Command)
     for line in command.examples
+    if command.name != "app"  # serves until it is stopped: tests/app
 ]
 BENCH = next(line for line in EXAMPLES if "bench.csv" in line and "simulate" in line)
 LONG = ("disting look --demo", "disting report", "disting dampers", "disting verify")

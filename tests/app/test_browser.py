@@ -1,0 +1,227 @@
+"""The Data page in a real browser: an engineer's way by mouse and by keyboard, a chemist's, what
+goes wrong; on a desk and on a telephone, light and dark.
+"""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from tests.app.served import Served, bench_csv, serving
+from tests.report.barriers import barriers
+from tests.report.conftest import heard
+
+pytestmark = pytest.mark.full
+SLOW = 240_000  # milliseconds that a fit may take on a machine with other work
+REFUSAL = re.compile(r"Failed to load resource: the server responded with a status of 422")
+DROP = """([name, text]) => {
+  const data = new DataTransfer();
+  data.items.add(new File([text], name));
+  for (const kind of ["dragover", "drop"]) document.querySelector(".drop").dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
+}"""
+
+
+@pytest.fixture
+def own(tmp_path) -> Iterator[Served]:
+    pytest.importorskip("starlette", reason="the extra app is not installed")
+    with serving(tmp_path / "project") as served:
+        yield served
+
+
+@pytest.fixture
+def visit(browser) -> Iterator[object]:
+    """Open the page of a server; at the end: nothing on the console, no request but its own."""
+    contexts, heards = [], []
+
+    def go(served: Served, width: int = 1280, scheme: str = "light"):
+        context = browser.new_context(
+            viewport={"width": width, "height": 844 if width < 500 else 800},
+            color_scheme=scheme,
+            reduced_motion="reduce",
+        )
+        tab = context.new_page()
+        tab.set_default_timeout(SLOW)
+        listening = heard(tab)
+        heards.append((served.base, listening, listening.__enter__()))
+        contexts.append(context)
+        tab.goto(served.first_address)
+        tab.wait_for_selector("#page-data h1")
+        return tab
+
+    yield go
+    for base, listening, (troubles, requests) in heards:
+        listening.__exit__(None, None, None)
+        assert [text for text in troubles if not REFUSAL.match(text)] == []
+        assert all(url.startswith((base + "/", "data:", "blob:")) for url in requests)
+    for context in contexts:
+        context.close()
+
+
+def drop(tab, name: str, content: bytes) -> None:
+    tab.evaluate(DROP, [name, content.decode()])
+
+
+def is_seen(tab, words: str) -> None:
+    tab.wait_for_selector(f"text={words}")
+
+
+def overflow(tab) -> int:
+    """Pixels by which the page is wider than its window."""
+    return tab.evaluate(
+        "document.documentElement.scrollWidth - document.documentElement.clientWidth"
+    )
+
+
+def test_an_engineer_by_mouse(own, visit):
+    tab = visit(own)
+    assert tab.url == own.base + "/#data"  # the token is gone from the address
+    assert tab.locator("#fit").is_hidden()
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    assert (
+        tab.locator("#diagram").get_attribute("aria-label")
+        == "Bode diagram of 80 lines from 5 to 300 Hz, bars of 95 %"
+    )
+    assert tab.locator(".field.assumed label").all_inner_texts() == ["Quantity assumed"]
+    tab.select_option("#field-quantity", "velocity")
+    tab.wait_for_selector(".field.assumed", state="detached")
+    assert "velocity; 80 lines" in tab.locator("#read").inner_text()
+    tab.fill("#field-band-1", "200")
+    tab.keyboard.press("Tab")
+    tab.wait_for_function(
+        "document.getElementById('diagram').getAttribute('aria-label').includes('to 2') || document.getElementById('diagram').getAttribute('aria-label').includes('to 19')"
+    )
+    for n in (3, 4):
+        tab.click(f".masses input[value='{n}']")
+    tab.click("#fit button.main")
+    tab.wait_for_selector("#answer-title")
+    assert tab.evaluate("document.activeElement.id") == "answer-title"
+    lines = tab.locator("#answer li").all_inner_texts()
+    assert [line.partition(":")[0] for line in lines] == ["Data", "Structure", "Next"]
+    assert "2:1+b1+delay explains this data" in lines[1]
+    frame = tab.frame_locator("iframe.report")
+    assert "explains" in frame.locator("h1").inner_text()
+    tab.wait_for_function("document.querySelector('iframe.report').clientHeight > 2000")
+    frame.locator("#candidates thead button").first.click()  # the page's own script runs
+    with tab.expect_download() as saved:
+        tab.click("text=MATLAB")
+    assert saved.value.suggested_filename == "model.mat"
+    assert barriers(tab) == []
+    tab.reload()
+    tab.wait_for_selector("#answer-title")
+    assert tab.input_value("#field-quantity") == "velocity"
+
+
+def test_an_engineer_by_keyboard(own, visit):
+    tab = visit(own)
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("document.activeElement.id") == "tab-data"
+    tab.keyboard.press("Tab")
+    assert tab.evaluate("document.activeElement.id") == "file"
+    with tab.expect_file_chooser() as chooser:
+        tab.keyboard.press("Enter")
+    chooser.value.set_files({"name": "bench.csv", "mimeType": "text/csv", "buffer": bench_csv()})
+    tab.wait_for_selector("#diagram circle")
+    tab.focus("#field-quantity")
+    tab.keyboard.type("vel")
+    tab.keyboard.press("Tab")
+    tab.wait_for_selector(".field.assumed", state="detached")
+    for n in (2, 3, 4):
+        tab.focus(f".masses input[value='{n}']")
+        tab.keyboard.press("Space")
+    tab.focus("#fit button.main")
+    tab.keyboard.press("Enter")
+    tab.wait_for_selector("#answer-title")
+    assert "none of the candidates explains this data" in tab.locator("#answer").inner_text()
+
+
+def test_a_chemist_pastes_a_spectrum(own, visit):
+    import numpy as np
+
+    f = np.geomspace(0.1, 1e4, 40)
+    Z = 10 + 100 / (1 + 2j * np.pi * f * 100 * 1e-4)
+    Z = Z * (1 + 0.003 * np.random.default_rng(2).normal(size=(40, 2)) @ [1, 1j])
+    rows = "\n".join(f"{x:.6g},{z.real:.6g},{-z.imag:.6g}" for x, z in zip(f, Z, strict=True))
+    tab = visit(own)
+    tab.click("text=Paste a table")
+    tab.fill("#pasted", f"freq/Hz,Re(Z)/Ohm,-Im(Z)/Ohm\n{rows}\n")
+    tab.click("text=Read the table")
+    tab.wait_for_selector("#diagram.nyquist circle")
+    assert tab.is_checked("input[name=sort][value=models]")
+    tab.click("#fit button.main")
+    is_seen(tab, "Name at least one model.")
+    tab.fill("#models", "R1-C1\nR0-p(R1,C1)")
+    tab.click("#fit button.main")
+    tab.wait_for_selector("#answer-title")
+    assert "R0-p(R1,C1)" in tab.locator("#answer li").first.inner_text()
+    assert barriers(tab) == []
+
+
+def test_a_fit_is_stopped_and_a_closed_page_finds_its_fit_again(own, visit):
+    tab = visit(own)
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    tab.click("#fit button.main")
+    tab.wait_for_function(
+        "/Candidates fitted: \\d+ of \\d+/.test(document.querySelector('.progress').innerText)"
+    )
+    tab.reload()
+    tab.wait_for_selector(".progress button:visible")
+    tab.click("text=Stop")
+    is_seen(tab, "Stopped.")
+    assert tab.locator("#fit button.main").is_enabled()
+    assert own.call("fits", {})[1] == {"fits": []}
+
+
+def test_what_cannot_be_read_is_said_and_the_way_back_is_there(own, visit):
+    tab = visit(own)
+    drop(tab, "letter.csv", b"Dear Sir,\nthank you.\n")
+    tab.wait_for_selector("#read .warning")
+    assert "letter.csv" in tab.locator("#read .warning").inner_text()
+    assert tab.locator("#fit").is_hidden()
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    tab.fill("#field-band-0", "many")
+    tab.keyboard.press("Tab")
+    is_seen(tab, "Band from: many is no number.")
+    tab.fill("#field-band-0", "250")
+    tab.fill("#field-band-1", "20")
+    is_seen(tab, "the band begins at 250 Hz and ends at 20 Hz; swap them")
+    tab.click("text=Read it without these settings")
+    tab.wait_for_selector("#diagram circle")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 390])
+def test_nothing_keeps_people_out_and_nothing_is_wider_than_the_window(app, visit, width, scheme):
+    tab = visit(app, width, scheme)
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    tab.evaluate("document.querySelectorAll('details').forEach((part) => { part.open = true; })")
+    assert barriers(tab) == []
+    assert overflow(tab) <= 0
+
+
+def test_a_name_with_markup_is_shown_as_it_is(own, visit):
+    tab = visit(own)
+    drop(
+        tab,
+        "x' onerror='alert(1).csv",
+        bench_csv().replace(b"Re,", b"<img src=x onerror=alert(1)>,"),
+    )
+    is_seen(tab, "What was read: x' onerror='alert(1).csv")
+    assert tab.locator("main img").count() == 0
+
+
+def test_the_page_of_a_stranger_runs_nothing(own, browser):
+    folder = own.folder / "fits" / "1"
+    folder.mkdir(parents=True)
+    (folder / "fit.html").write_text(
+        "<title>before</title><script>document.title = 'run'</script><img src=x onerror=\"document.title = 'run'\">"
+    )
+    context = browser.new_context()
+    tab = context.new_page()
+    tab.goto(own.first_address)
+    tab.goto(own.base + "/project/fits/1/fit.html")
+    assert re.fullmatch("before", tab.title())
+    context.close()

@@ -1,0 +1,258 @@
+"""A real server: what it answers, what it keeps, how it ends."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from resource import RLIMIT_FSIZE, setrlimit
+
+import pytest
+from jsonschema import validate
+
+from disting.app.interface import CALLS
+from tests.app.served import bench_csv, serving
+
+pytestmark = pytest.mark.full
+PLAIN = {"file": "bench.csv", "reading": {}}
+VELOCITY = {"file": "bench.csv", "reading": {"quantity": "velocity"}}
+SMALL = {"measurements": [VELOCITY], "masses": [1, 2]}
+
+
+def children(pid: int) -> set[int]:
+    """Processes below one."""
+    listed = subprocess.run(["ps", "-eo", "pid=,ppid="], capture_output=True, text=True, check=True)
+    pairs = [tuple(map(int, line.split())) for line in listed.stdout.splitlines()]
+    found, new = set(), {pid}
+    while new:
+        new = {child for child, parent in pairs if parent in new}
+        found |= new
+    return found
+
+
+def is_there(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_the_page_and_its_parts_are_served_with_their_policy(app):
+    status, headers, body = app.ask("GET", "/")
+    assert status == 200 and b'role="tablist"' in body
+    assert headers["content-security-policy"].startswith("default-src 'none'; script-src 'self';")
+    for path in re.findall(rb'(?:src|href)="(/[^"]+)"', body):
+        assert app.ask("GET", path.decode())[0] == 200
+    assert app.ask("GET", "/", cookie="")[0] == 401
+
+
+def test_what_is_read_follows_its_schema_and_its_fields(app):
+    status, plain = app.call("look", PLAIN)
+    assert status == 200
+    validate(plain, CALLS["look"].schema["properties"]["answer"])
+    assert plain["look"]["quantity"] == "acceleration"
+    assert plain["look"]["assumed"][0]["what"] == "quantity acceleration"
+    assert plain["diagram"]["kind"] == "bode" and len(plain["diagram"]["gain"]) == 80
+    _, other = app.call("look", VELOCITY)
+    assert (other["look"]["quantity"], other["look"]["assumed"]) == ("velocity", [])
+    assert other["command"] == "disting look data/bench.csv --quantity velocity"
+    _, band = app.call("look", {"file": "bench.csv", "reading": {"band": [10, 100]}})
+    assert 10 <= band["diagram"]["frequency"][0] < band["diagram"]["frequency"][-1] <= 100
+
+
+@pytest.mark.parametrize(
+    ("reading", "words"),
+    [
+        ({"column": "torque"}, "torque"),
+        ({"band": [200, 10]}, "swap them"),
+        ({"units": {"frequency": "furlong"}}, "furlong"),
+        ({"quantity": "speed"}, "reading.quantity"),
+        ({"colour": "red"}, "additionalProperties"),
+    ],
+)
+def test_a_reading_that_cannot_be_is_refused_in_one_sentence(app, reading, words):
+    status, answer = app.call("look", {"file": "bench.csv", "reading": reading})
+    sentence = answer["error"] if status == 422 else " ".join(answer["look"]["doubts"])
+    assert words in sentence and "\n" not in sentence and "Traceback" not in sentence
+
+
+def test_a_file_that_is_no_measurement_is_refused(app):
+    assert app.upload("letter.csv", b"Dear Sir,\nthank you.\n")[0] == 200
+    status, answer = app.call("look", {"file": "letter.csv", "reading": {}})
+    assert status == 422 and "letter.csv" in answer["error"]
+
+
+def test_the_same_file_is_kept_once_and_another_one_beside_it(app):
+    assert app.upload("twice.csv", b"a,b\n1,2\n")[1]["name"] == "twice.csv"
+    assert app.upload("twice.csv", b"a,b\n1,2\n")[1]["name"] == "twice.csv"
+    assert app.upload("twice.csv", b"a,b\n1,3\n")[1]["name"] == "twice-2.csv"
+    assert (app.folder / "data" / "twice.csv").read_bytes() == b"a,b\n1,2\n"
+    assert app.upload("empty.csv", b"")[0] == 422
+    assert not [path for path in (app.folder / "data").iterdir() if path.name.startswith(".")]
+
+
+def test_a_fit_reports_every_candidate_and_leaves_a_readable_folder(app):
+    status, begun = app.call("fit", SMALL)
+    assert status == 202
+    events = [*app.events(begun["job"])]
+    assert {content["what"] for name, content in events if name == "progress"} >= {"fit"}
+    end = events[-1][1]
+    assert (events[-1][0], end["state"]) == ("end", "done"), end
+    answer = end["answer"]
+    validate(answer, CALLS["fit"].schema["properties"]["answer"])
+    assert answer["explains"] and "2:1+b1+delay" in answer["answer"][1]
+    folder = app.folder / "fits" / str(answer["fit"])
+    assert json.loads((folder / "fit.json").read_text())["format"] == "disting fit 1"
+    assert json.loads((folder / "about.json").read_text())["request"] == SMALL
+    status, headers, page = app.ask("GET", f"/project/fits/{answer['fit']}/fit.html")
+    assert status == 200 and page == (folder / "fit.html").read_bytes()
+    assert "frame-ancestors 'self'" in headers["content-security-policy"]
+    status, headers, _ = app.ask("GET", f"/project/fits/{answer['fit']}/model.mat")
+    assert status == 200 and headers["content-disposition"].startswith("attachment")
+    assert app.call("fits", {})[1]["fits"][0]["fit"] == answer["fit"]
+
+
+def test_the_command_that_the_page_shows_gives_the_same_fit(app):
+    answer = app.run("fit", SMALL | {"masses": [1]})["answer"]
+    words = answer["command"].split()
+    assert words[:2] == ["disting", "fit"]
+    done = subprocess.run([sys.executable, "-m", "disting", *words[1:], "--json", "-"], cwd=app.folder, capture_output=True, text=True, check=False)  # fmt: skip
+    assert json.loads(done.stdout)["answer"] == answer["answer"]
+
+
+def test_a_fit_that_assumes_the_wrong_quantity_explains_nothing(app):
+    answer = app.run("fit", {"measurements": [PLAIN], "masses": [1]})["answer"]
+    assert not answer["explains"]
+
+
+def test_circuits_are_fitted_to_a_spectrum(app):
+    import numpy as np
+
+    f = np.geomspace(0.1, 1e4, 50)
+    Z = 10 + 100 / (1 + 2j * np.pi * f * 100 * 1e-4)
+    Z = Z * (1 + 0.003 * np.random.default_rng(2).normal(size=(50, 2)) @ [1, 1j])
+    rows = "\n".join(f"{x:.6g},{z.real:.6g},{-z.imag:.6g}" for x, z in zip(f, Z, strict=True))
+    app.upload("eis.csv", f"freq/Hz,Re(Z)/Ohm,-Im(Z)/Ohm\n{rows}\n".encode())
+    measurement = {"file": "eis.csv", "reading": {}}
+    seen = app.call("look", measurement)[1]
+    assert (seen["diagram"]["kind"], seen["look"]["impedance"]) == ("nyquist", True)
+    request = {"measurements": [measurement], "masses": [1], "models": ["R1-C1", "R0-p(R1,C1)"]}
+    end = app.run("fit", request)
+    assert end["state"] == "done", end
+    assert "R0-p(R1,C1)" in " ".join(end["answer"]["answer"]) and end["answer"]["explains"]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"models": ["R0-p(R1"]}, "R0-p(R1"),
+        ({"measurements": [{"file": "none.csv", "reading": {}}]}, "no file"),
+        ({"measurements": [VELOCITY, VELOCITY]}, "what is different"),
+        ({"measurements": [VELOCITY, VELOCITY | {"change": "paint=2"}]}, "a change is written"),
+        ({"base": True, "measurements": [VELOCITY | {"sensor": "2"}]}, "elastic base"),
+    ],
+)
+def test_a_fit_that_cannot_be_fails_with_a_sentence(app, change, words):
+    end = app.run("fit", SMALL | change)
+    assert end["state"] == "failed" and words in end["message"], end
+    assert "\n" not in end["message"]
+
+
+def test_a_stopped_fit_leaves_nothing_and_the_next_one_runs(app):
+    before = len(app.call("fits", {})[1]["fits"])
+    begun = app.call("fit", SMALL | {"masses": [1, 2, 3, 4]})[1]["job"]
+    events = app.events(begun)
+    while next(events)[1]["what"] != "fit":
+        pass
+    assert app.ask("POST", f"/api/jobs/{begun}/stop")[0] == 200
+    assert [*events][-1][1]["state"] == "stopped"
+    assert len(app.call("fits", {})[1]["fits"]) == before
+    assert app.run("fit", {"measurements": [VELOCITY], "masses": [1]})["state"] == "done"
+
+
+def test_eight_clients_at_once_get_their_own_answers(app):
+    bands = [[5 + k, 100 + 10 * k] for k in range(8)]
+
+    def ask(band):
+        return [
+            app.call("look", {"file": "bench.csv", "reading": {"band": band}}) for _ in range(6)
+        ]
+
+    with ThreadPoolExecutor(8) as pool:
+        for band, answers in zip(bands, pool.map(ask, bands), strict=True):
+            for status, answer in answers:
+                assert status == 200
+                frequency = answer["diagram"]["frequency"]
+                assert band[0] <= frequency[0] < band[0] * 1.1 and frequency[-1] <= band[1]
+
+
+def test_a_killed_worker_is_replaced_and_nothing_stays_behind(tmp_path):
+    with serving(tmp_path / "project") as own:
+        own.upload("bench.csv", bench_csv())
+        assert own.call("look", PLAIN)[0] == 200
+        pid = own.process.pid
+        for worker in children(pid):
+            os.kill(worker, signal.SIGKILL)
+        answers = [own.call("look", PLAIN)[0] for _ in range(6)]
+        assert answers[-1] == 200 and set(answers) <= {200, 500}
+        left = children(pid)
+        with pytest.raises(AssertionError, match="open in another"), serving(tmp_path / "project"):
+            pass
+    assert own.process.returncode == 0
+    assert not [worker for worker in left if is_there(worker)]
+
+
+def test_a_killed_server_loses_no_finished_fit_and_no_worker_outlives_it(tmp_path):
+    with serving(tmp_path / "project") as own:
+        own.upload("bench.csv", bench_csv())
+        first = own.run("fit", {"measurements": [VELOCITY], "masses": [1]})["answer"]["fit"]
+        own.call("save", {"page": "data", "content": {"measurements": [VELOCITY]}})
+        own.call("fit", SMALL | {"masses": [1, 2, 3, 4]})
+        while not (tmp_path / "project" / "fits" / "unfinished").is_dir():
+            time.sleep(0.05)
+        below = children(own.process.pid)
+        own.process.kill()
+        own.process.wait()
+    until = time.monotonic() + 30
+    while time.monotonic() < until and any(map(is_there, below)):
+        time.sleep(0.1)
+    assert not [worker for worker in below if is_there(worker)]
+    with serving(tmp_path / "project") as again:
+        assert [found["fit"] for found in again.call("fits", {})[1]["fits"]] == [first]
+        content = again.call("open", {"page": "data"})[1]["content"]
+        assert content == {"measurements": [VELOCITY]}
+
+
+def test_a_full_disk_is_one_sentence_and_leaves_what_was_there(tmp_path):
+    """No file may grow beyond ten kilobytes, as on a full disk."""
+    with serving(
+        tmp_path / "project", before=lambda: setrlimit(RLIMIT_FSIZE, (10_000,) * 2)
+    ) as own:
+        assert own.upload("bench.csv", bench_csv())[0] == 200
+        status, answer = own.upload("large.csv", b"1,2\n" * 10_000)
+        assert status == 507 and answer == {"error": "File too large"}
+        assert own.call("save", {"page": "data", "content": {"a": 1}})[0] == 200
+        status, answer = own.call("save", {"page": "data", "content": {"a": "x" * 20_000}})
+        assert status == 507 and "File too large" in answer["error"]
+        assert own.call("open", {"page": "data"})[1] == {"content": {"a": 1}}
+        assert [path.name for path in (tmp_path / "project" / "data").iterdir()] == ["bench.csv"]
+
+
+def test_without_the_extra_one_sentence_names_it():
+    code = "import sys; sys.modules['starlette'] = None; from disting.cli.run import main; sys.exit(main(['app', 'p']))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert (
+        done.stderr.strip()
+        == "disting: 'disting app' needs more packages: pip install 'disting[app]'"
+    )
+
+
+def test_a_port_that_is_taken_is_one_sentence(app, tmp_path):
+    port = app.netloc.partition(":")[2]
+    done = subprocess.run([sys.executable, "-m", "disting", "app", str(tmp_path / "p"), "--port", port], capture_output=True, text=True, check=False)  # fmt: skip
+    assert done.returncode == 2 and f"port {port} cannot be used" in done.stderr
