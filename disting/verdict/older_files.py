@@ -55,7 +55,7 @@ _PHRASES = (
     ("parameters: that requires ", "parameters: that asks for "),
 )
 _NOT_SAID = re.compile(r" It is not decided whether all .+? have an equivalent in .+?\.")
-"""What witnesses leave open was not stated."""
+"""Sentence on what witnesses leave open, which version 0.3.0 did not state."""
 
 
 def in_older_words(verdict: dict[str, Any]) -> dict[str, Any]:
