@@ -150,7 +150,7 @@ FIT = Command(
 )
 PLAN = Command(
     "plan",
-    "how long to measure to distinguish two structures",
+    "compute how long to measure to distinguish two structures",
     "plan",
     arguments="plan_arguments",
     examples=(
@@ -179,7 +179,7 @@ SECTIONS: dict[str, tuple[Command | Group, ...]] = {
         FIT,
         Command(
             "next",
-            "which experiment distinguishes structures with the same response",
+            "find the experiment that distinguishes structures with the same response",
             "next",
             examples=("disting next 3:1 3:11", "disting next FIT.json"),
         ),

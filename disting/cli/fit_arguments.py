@@ -41,14 +41,14 @@ what was measured
   --actuator 2            mass that the force acts on (default: 1)
   --experiment F:lock=2   another file of the machine, with a mass locked
   --quantity velocity     what the sensor shows (default: acceleration)
-  --unit output=deg       a unit that the file does not say
+  --unit output=deg       a unit that the file does not state
   --column HEADER         which of several responses in the file
   --torque-constant K     Nm per A, where the input is a current
   --band 10..200          use only these frequencies, in Hz
-  --hold 125e-6           a digital drive that holds its input so long, in s
+  --hold 125e-6           time for which a digital drive holds its input, in s
 
 candidates
-  --masses 1-3            how many masses (default: 1-4)
+  --masses 1-3            how many masses (default: 1-4); fewer are faster
   --undamped              springs without dampers beside them
   --base                  also on an elastic base, with the encoder fixed to it
   --fix m1=0.02           a known parameter; --bound k12=0..500 is its range
@@ -58,7 +58,7 @@ candidates
 results
   --out DIR               a page with figures, tables and a .mat file
   --json FILE             the result for programs; 'disting next FILE' reads it
-  --controller P=2,I=30   what a controller may rely on
+  --controller P=2,I=30   stability margins of this controller
 
 --help-all shows all options. Which files are read, what is meant by a unit or a
 sign, how to read the answer: 'disting report 3' writes the guide.

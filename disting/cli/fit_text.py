@@ -94,7 +94,7 @@ def _criteria(selection: Selection, folded: Folded) -> Iterator[str]:
     yield from _table((left or selection.candidates)[:SHOWN])
     cost = cost_in_words(selection.task.cost)
     yield f"misfit J: {cost}; on data not used for the fit (J test) and on its own data (J train)"
-    yield f"badly determined, the higher the worse: {columns(selection.thresholds)}"
+    yield f"badly determined (a higher number is worse): {columns(selection.thresholds)}"
 
 
 def _side_by_side(selection: Selection) -> Iterator[str]:

@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     effort = _effort(options, model, values, None)
     _warn(effort)
     with engine_for(options) as (engine, pool, progress):
-        the_plan = _planned(
+        the_plan = _plan_with(
             effort, model, values, rival, engine=engine, executor=pool, progress=progress
         )
         progress("spectrum", 0, 1)
@@ -60,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _planned(
+def _plan_with(
     effort: Effort, model: AnyStructure, values: Parameters, rival: AnyStructure, **work: Any
 ) -> Plan:
     """One plan with this effort; `work`: engine, executor and progress of `plan`."""
@@ -116,7 +116,7 @@ def _plans(
     """
     plans = list[tuple[Plan, Plan | None]]()
     with engine_for(options) as (engine, pool, progress):
-        planned = partial(_planned, effort, engine=engine, executor=pool)
+        planned = partial(_plan_with, effort, engine=engine, executor=pool)
         for rival, values in named.rivals.items():
             progress("rival", len(plans), len(named.rivals))
             other_plan = planned(named.model, named.values, rival)

@@ -27,8 +27,8 @@ DESCRIPTION = (
     "cannot distinguish. Exact verdicts, with evidence."
 )
 STATUS = (
-    "exit status: 0 fine, 1 a failed verification, 2 bad usage or bad input,"
-    " 3 a verdict that cannot be checked alone"
+    "exit status: 0 fine, 1 a failed verification or a fit that explains nothing,\n"
+    "2 bad usage or bad input, 3 a verdict that cannot be checked alone"
 )
 HELP_WIDTH = 78
 Subparsers = Any  # the object that argparse gives for sub-commands has no public type

@@ -51,7 +51,6 @@ from disting.fit.search.joint import AnyCost, FurtherResponse, JointCost, with_d
 from disting.measurement import FrequencyResponse
 from disting.measurement.assumptions import as_shown
 from disting.model.chain import Chain, Quantity, as_quantity
-from disting.model.question import Settings
 from disting.statistics.practical import Thresholds
 from disting.store import Store
 from disting.verdict.engine import Engine, Progress, silent
@@ -282,7 +281,7 @@ def _selection(
 ) -> Selection:
     """Selection from the fits of all candidates."""
     task, search = fits.task, fits.search
-    chosen = _choose(fits, terms, work.engine.settings)
+    chosen = _choose(fits, terms, work)
     quantities = quantity_readings(
         fits.searched,
         chosen.selected.estimate if chosen.selected else None,
@@ -321,12 +320,14 @@ def _selection(
     )
 
 
-def _choose(fits: Fits, terms: Terms, settings: Settings) -> Choice:
+def _choose(fits: Fits, terms: Terms, work: Work) -> Choice:
     """Choose the selected candidate and the remaining ones, and determine whether any explains the
     data.
     """
     task, test, scatters = fits.task, fits.test, fits.known
-    fitted = judge(fits.found, task, test, scatters, settings)
+    settings = work.engine.settings
+    fitted = judge(fits.found, task, test, scatters, settings, work.executor, work.progress)
+    work.progress("comparison of the structures", 0, 1)
     while True:
         fitted = [
             replace(c, reasons=reasons(c, task, terms.thresholds, terms.rule)) for c in fitted

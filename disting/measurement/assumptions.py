@@ -99,7 +99,7 @@ def _of_units(used: Sequence[ReadColumn]) -> Iterator[Assumption]:
         if not column.unit_why.is_assumed or column.role in roles:
             continue
         roles.add(column.role)
-        by = ", by its numbers" if column.unit_why is Why.BY_NUMBERS else ""
+        by = ", from its values" if column.unit_why is Why.BY_NUMBERS else ""
         if column.role is Role.CLOCK:
             yield Assumption(f"time in {column.unit}", "--read sampling_rate=HZ")
         elif column.role in UNIT_OPTIONS:

@@ -51,7 +51,7 @@ class Why(StrEnum):
     FORMAT = "file format"
     ASSUMED = "assumed"
     BY_NAME = "assumed by its name"
-    BY_NUMBERS = "assumed by its numbers"
+    BY_NUMBERS = "assumed from its values"
     ELSEWHERE = "another response"
     NOTHING = ""
 

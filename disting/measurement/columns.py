@@ -161,9 +161,12 @@ def misread(table: Table, columns: Sequence[Column], why: str) -> InputError:
     words = _guess(table, columns)
     guessed = "Hz" in words and len(words) <= MOST
     command = f"--read columns={','.join(words)}" if guessed else "--read columns=Hz,dB,deg"
-    remedy = f"disting fit {shlex.quote(table.origin)} {command}" if guessed else f"as {command}"
+    remedy = (
+        f"disting fit {shlex.quote(table.origin)} {command}" if guessed else f"such as {command}"
+    )
+    headers = f"; headers: {table.listed()}" if any(table.headers) else ""
     return InputError(
-        f"{why}; name the columns: {remedy}; headers: {table.listed()}",
+        f"{why}; name the columns: {remedy}{headers}",
         "\n".join(_describe_columns(table, columns)),
     )
 

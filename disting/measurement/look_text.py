@@ -128,7 +128,7 @@ def fact_rows(seen: "Look") -> Iterator[tuple[str, str]]:
         yield "distortion", f"{', '.join(each)} of the response (medians)"
     if response is not None and response.loop is not None and not response.is_biased_by_loop:
         yield "loop", response.loop_sentence
-    yield from (("removed", trend) for trend in seen.trends)
+    yield from (("trend", trend) for trend in seen.trends)
     yield from (("assumed", str(assumption)) for assumption in seen.assumed)
     yield from (("note", note) for note in seen.notes)
     yield from (("doubt", doubt) for doubt in seen.doubts)

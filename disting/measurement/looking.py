@@ -44,7 +44,7 @@ from disting.renamed import renamed
 
 INPUTS = {"Nm": "torque", "N": "force", "A": "current", "V": "voltage"}
 IMPEDANCE = (
-    "this is an impedance, which no chain of masses has: fit circuits to it, such as disting fit"
+    "this is an impedance, not the motion of a drive: fit circuits to it, such as disting fit"
     " FILE --models circuits-4"
 )
 # marks of notes that the list of assumptions or the facts of a record state as well

@@ -8,7 +8,7 @@ from typing import TypedDict
 from disting.model.chain import Quantity
 
 UNITS = ("frequency", "phase", "magnitude", "input", "output")
-"""What has a unit in a file."""
+"""Numbers of a file that have a unit."""
 
 
 class _Shown(TypedDict, total=False):

@@ -111,7 +111,8 @@ ROUNDING = 1e-9  # of a correlation computed by fast Fourier transforms
 Detrend = tuple[Callable[[Trend], str], Callable[[Trend], str]]
 """Sentences on a trend that was removed from the input and from the output."""
 WANDERING = (
-    "the output wanders: its spectra are those of its changes; --read trend=keep takes them of it"
+    "the output drifts irregularly: the response is computed from its differences from sample to"
+    " sample; with --read trend=keep from the output itself"
 )
 PAIR = 2  # periods of which the first one is kept where it shows no transient
 DECAYS = (

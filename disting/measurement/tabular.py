@@ -188,7 +188,9 @@ class _Reading:
         """The numbers of a column, reversed where its header has a minus before its name."""
         if not MINUS.match(self.table.headers[at]):
             return self.table.column(at)
-        self.notes.append(f"{self.table.named(at)} is taken with the opposite sign, as its header")
+        self.notes.append(
+            f"{self.table.named(at)}: read with the sign reversed, as its header says"
+        )
         return np.asarray(-self.table.column(at))
 
     def beside(self, group: Group, role: Role) -> Real | None:

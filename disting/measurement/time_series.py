@@ -203,10 +203,10 @@ class TimeSeries:
         return replace(plain, method=method)
 
     def _describe_input(self, trend: Trend) -> str:
-        return describe(trend, self.sampling_rate, None, "input", self.input)
+        return describe(trend, self.sampling_rate, "input", self.input)
 
     def _describe_output(self, trend: Trend) -> str:
-        return describe(trend, self.sampling_rate, self.quantity.order, "output", self.output)
+        return describe(trend, self.sampling_rate, "output", self.output)
 
 
 def said(

@@ -120,19 +120,28 @@ def undo_difference(response: FrequencyResponse, rate: float) -> FrequencyRespon
     return replace(response, G=response.G / factor, deviation=deviation)
 
 
-def describe(trend: Trend, rate: float, order: int | None, role: str, signal: Signal) -> str:
-    """Sentence on a trend that was removed; `rate` [Hz], `order` of a motion (0: position), None
-    for an input; `role`: input or output.
+def describe(trend: Trend, rate: float, role: str, signal: Signal) -> str:
+    """Sentence on a trend that was removed; `rate` [Hz], `role`: input or output.
 
-    >>> describe(Trend(0.005), 1000.0, 0, "output", Signal("angle", "rad"))
-    'constant speed 5 rad/s removed from output angle [rad]; --read trend=keep keeps it'
+    >>> describe(Trend(0.005), 1000.0, "output", Signal("angle", "rad"))
+    'output angle [rad] drifts by 5 rad/s; the drift is subtracted (--read trend=keep keeps it)'
     """
-    per_second = f"{signal.unit}/s" if signal.unit else "per second"
     middle, half = trend.slope * rate, trend.change * rate / 2
-    name = {0: "speed", 1: "acceleration"}.get(-1 if order is None else order, "slope")
-    value = f"{middle:.3g} {per_second}"
-    if not trend.change:
-        text = f"constant {name} {value}" if name != "slope" else f"slope {value}"
-    else:
-        text = f"{name} from {middle - half:.3g} to {middle + half:.3g} {per_second}"
-    return f"{text} removed from {f'{role} {signal}'.strip()}; --read trend=keep keeps it"
+    value = f"{middle:.3g}" if not trend.change else f"{middle - half:.3g} to {middle + half:.3g}"
+    return (
+        f"{f'{role} {signal}'.strip()} drifts by {value} {_per_second(signal.unit)}; the drift is"
+        " subtracted (--read trend=keep keeps it)"
+    )
+
+
+def _per_second(unit: str) -> str:
+    """A unit per second.
+
+    >>> [_per_second(unit) for unit in ("rad", "rad/s", "rpm", "")]
+    ['rad/s', 'rad/s^2', 'rpm per s', 'per second']
+    """
+    if unit.endswith("/s"):
+        return f"{unit}^2"
+    if "/" in unit or unit == "rpm":
+        return f"{unit} per s"
+    return f"{unit}/s" if unit else "per second"

@@ -191,13 +191,13 @@ def next_experiments(
     (('3:1', '3:11'), 2)
     """
     engine = engine or Engine()
-    named = _named(list(of_type(models, Iterable, NAMED)), damped)
+    named = _read_structures(list(of_type(models, Iterable, NAMED)), damped)
     refuse_distinguishable(sides_as_measured(named, engine), engine)
     costs = as_costs(cost)
     return menu_for(named, engine, costs=costs, executor=executor, progress=progress)
 
 
-def _named(
+def _read_structures(
     models: Sequence[Chain | Network | str], damped: bool | None
 ) -> list[tuple[str, Chain | Network]]:
     """Two structures at least with their names, each once; raises InputError."""

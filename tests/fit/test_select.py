@@ -21,6 +21,7 @@ from disting.fit.select import select
 from disting.model.chain import Chain
 from disting.report.fit.selection_json import selection_to_dict
 from disting.statistics.practical import Thresholds
+from disting.store.scheduling import executor
 from disting.verdict.result import Relation
 from tests.fit.drives import OMEGA, bench, response
 
@@ -113,6 +114,21 @@ def test_the_same_seed_gives_the_same_bytes(selection):
     assert once.selected.chain == PLANTED and once.selected.estimate.parameters == pytest.approx(
         found[PLANTED], rel=0.02
     )
+
+
+@pytest.mark.full
+def test_workers_give_the_same_selection_and_each_step_tells_how_far_it_is():
+    """Without test data candidates are fitted to every fold, in the workers too."""
+    few = [c for c in figure_1((1,)) if not c.lag]
+    steps = []
+    alone = select(planted(1), few, progress=lambda *step: steps.append(step))
+    with executor(2, "") as pool:
+        together = select(planted(1), few, executor=pool)
+    assert json.dumps(selection_to_dict(alone)) == json.dumps(selection_to_dict(together))
+    count = len(alone.candidates)
+    assert [s[1:] for s in steps if s[0] == "cross-validation"] == [
+        (done, count) for done in range(1, count + 1)
+    ]
 
 
 def test_physical_results_carry_their_errors(selection):

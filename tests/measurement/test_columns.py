@@ -122,7 +122,7 @@ def test_a_minus_before_a_name_turns_its_numbers_and_is_said(tmp_path, header):
     columns = (np.abs(G), np.angle(G)) if "abs" in header else (G.real, G.imag)
     found = read(written(tmp_path / "a.csv", header, F, *columns))
     np.testing.assert_allclose(found.G, G.conj(), rtol=1e-12)
-    assert any("is taken with the opposite sign" in note for note in found.notes)
+    assert any("read with the sign reversed" in note for note in found.notes)
 
 
 def test_a_unit_of_phase_that_is_not_known_is_refused(tmp_path):

@@ -64,7 +64,7 @@ def test_what_no_header_states_is_assumed_with_the_option_that_states_it(tmp_pat
         ("quantity acceleration", "--quantity position or --quantity velocity"),
         ("frequency in Hz", "--unit frequency=rad/s"),
         ("gain linear", "--unit magnitude=dB"),
-        ("phase in deg, by its numbers", "--unit phase=rad"),
+        ("phase in deg, from its values", "--unit phase=rad"),
     ]
     assert "unit assumed" in seen.reason(seen.columns[0])
 
@@ -264,12 +264,12 @@ def test_a_record_shows_its_sampling_excitation_trend_and_distortion(tmp_path):
     method = seen.response.method
     assert (method.period, method.periods, method.dropped) == (PERIOD, 3, 1)
     assert seen.excitation.kind is Excitation.MULTISINE and seen.excitation.lines == 98
-    assert len(seen.trends) == 1 and "0.5 rad/s removed from output y" in seen.trends[0]
+    assert len(seen.trends) == 1 and "output y [rad] drifts by 0.5 rad/s" in seen.trends[0]
     assert set(seen.distortion) == {"even distortion", "noise"}  # odd lines are excited
     text = repr(seen)
     assert "record: 4000 samples at 1000 Hz, 4 s; 3 periods of 1000 samples" in text
     assert "excitation: multisine, 98 lines, 5 to 199 Hz" in text
-    assert "(3 periods)" in text and text.count("0.5 rad/s removed") == 1
+    assert "(3 periods)" in text and text.count("drifts by 0.5 rad/s") == 1
 
 
 def test_signals_that_are_chosen_by_their_names_are_assumed(tmp_path):
@@ -343,7 +343,7 @@ def test_the_short_form_of_a_fit_has_all_assumptions(tmp_path):
         "shows: acceleration (assumed); 20 lines from 1 to 20 Hz",
         "assumed: quantity acceleration (else --quantity position or --quantity velocity);"
         " frequency in Hz (else --unit frequency=rad/s); gain linear (else --unit magnitude=dB);"
-        " phase in deg, by its numbers (else --unit phase=rad)",
+        " phase in deg, from its values (else --unit phase=rad)",
     ]
 
 

@@ -13,6 +13,7 @@ parameter vectors fit is not asked here, which costs more than the fit.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from math import inf
 
@@ -51,6 +52,8 @@ from disting.statistics.covariance import expected_deviation
 from disting.statistics.lone_lines import LoneLines
 from disting.statistics.practical import NoiseModel, Practical, practical
 from disting.statistics.scatter import Scatter
+from disting.store.scheduling import map_tasks
+from disting.verdict.engine import Progress, silent
 
 MOST_TERMS = 3  # of a combination that is written out
 
@@ -216,16 +219,21 @@ def judge(
     test_cost: AnyCost | None,
     own_scatters: Scatters,
     settings: Settings,
+    executor: Executor | None = None,
+    progress: Progress = silent,
 ) -> list[Candidate]:
-    """Judge each estimate by the scatter of the data, in the order of the cost on test."""
+    """Judge each estimate by the scatter of the data, in the order of the cost on test. Without
+    test data each is fitted again to every fold, in the executor's workers if there is one.
+    """
     each = list(estimates)
     first = {e.chain: _criteria(e, task, own_scatters[0]) for e in each}
     criteria = with_structure({c: residuals for c, (residuals, _) in first.items()}, task, settings)
-    fitted = [
-        _candidate(e, criteria[e.chain], first[e.chain][1], task, test_cost, own_scatters)
-        for e in each
-    ]
-    return sorted(fitted, key=lambda c: c.order)
+    rows = [(e, criteria[e.chain], first[e.chain][1], task, test_cost, own_scatters) for e in each]
+    found = dict[Chain, Candidate]()
+    for _, candidate in map_tasks(_candidate, rows, executor if test_cost is None else None):
+        found[candidate.chain] = candidate
+        progress("cross-validation" if test_cost is None else "test data", len(found), len(rows))
+    return sorted((found[e.chain] for e in each), key=lambda c: c.order)
 
 
 def explains(estimate: Estimate, task: Task, most: Real) -> bool:

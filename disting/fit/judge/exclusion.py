@@ -136,8 +136,9 @@ def _spread(d: Real, other: Residuals) -> float:
     return float(np.linalg.norm(other.noise.seen(d[:, None])) ** 2)
 
 
+@lru_cache(maxsize=REMEMBERED)
 def limit(surplus: int, freedom: float, trials: int = 1, level: float = LEVEL) -> float:
-    """Critical value of T.
+    """Critical value of T; of few arguments, for each pair of structures.
 
     >>> round(limit(1, float("inf")), 2), round(limit(1, 100.0), 2)
     (6.63, 6.9)
@@ -207,13 +208,17 @@ def rests_on_lone_lines(
     take for proof, each with these lines.
     """
     found = dict[Chain, LoneLines]()
+    least = CLEARLY * limit(1, freedom)
     for other in fitted:
         for candidate in fitted:
-            is_gain = candidate.cost - other.cost > CLEARLY * limit(1, freedom)
-            if is_gain and other.chain not in found and contains(other.chain, candidate.chain):
-                most = limit(surplus(other.chain, candidate.chain, settings), freedom)
-                lines = gain_on_lone_lines(candidate, other, other.omega, most)
-                found |= {other.chain: lines} if lines else {}
+            is_gain = candidate.cost - other.cost > least
+            if not is_gain or not contains(other.chain, candidate.chain):
+                continue
+            most = limit(surplus(other.chain, candidate.chain, settings), freedom)
+            lines = gain_on_lone_lines(candidate, other, other.omega, most)
+            if lines:
+                found[other.chain] = lines
+                break
     return found
 
 

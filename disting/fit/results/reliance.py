@@ -223,7 +223,9 @@ class Statement:
         'phase margin: 41.2 to 44 deg, in every structure'
         """
         whose = (
-            "in every structure" if self.holds == self.total else f"in {self.holds} of {self.total}"
+            "in every structure"
+            if self.holds == self.total
+            else f"in {self.holds} of {self.total} structures"
         )
         note = f" ({self.note})" if self.note else ""
         return f"{self.name}: {self.size}, {whose}{note}"

@@ -135,7 +135,7 @@ def check_range(data: FrequencyResponse) -> None:
     ):
         low, high = float(values.min()), float(values.max())
         if low < 1 / MOST_EXTREME or high > MOST_EXTREME:
-            limits = f"a fit computes with {1 / MOST_EXTREME:g} to {MOST_EXTREME:g}"
+            limits = f"a fit accepts {1 / MOST_EXTREME:g} to {MOST_EXTREME:g}"
             raise InputError(
                 f"the {name} are {low:g} to {high:g} {unit}; {limits}: choose other units or"
                 " remove lines"

@@ -134,13 +134,14 @@ def columns(thresholds: Thresholds) -> str:
     """Meaning of the columns of `HEADS`, in one sentence.
 
     >>> print(columns(Thresholds()).partition(";")[0])
-    jointly, some combination of parameters (condition index, critical above 30)
+    jointly, a combination of parameters (condition index, critical above 30)
     """
     return (
-        "jointly, some combination of parameters (condition index, critical above"
-        f" {thresholds.condition_index:g}); weakest, the parameter of the smallest effect, beside"
-        f" that of the largest (PII ratio, {thresholds.importance_ratio:g}); alike, one that others"
-        f" make up for (collinearity index, {thresholds.collinearity:g})"
+        "jointly, a combination of parameters (condition index, critical above"
+        f" {thresholds.condition_index:g}); weakest, the parameter with the least effect, compared"
+        f" with the one that has most (PII ratio, critical above {thresholds.importance_ratio:g});"
+        " alike, a parameter whose change others can compensate (collinearity index, critical above"
+        f" {thresholds.collinearity:g})"
     )
 
 

@@ -351,10 +351,10 @@ def lone(selection: Selection) -> Iterator[str]:
     """Structures whose gain rests on single lines, in a sentence."""
     resting = [(c, c.rests_on) for c in selection.candidates if c.rests_on is not None]
     for c, lines in resting[:1]:
-        more = f"; so do {len(resting) - 1} more" if len(resting) > 1 else ""
+        more = f", likewise of {len(resting) - 1} more" if len(resting) > 1 else ""
         yield (
-            f"what {reference(c.chain)} adds {lines.sentence}{more}: that is not shown by the data"
-            " and excludes no other structure"
+            f"what {reference(c.chain)} adds {lines.sentence}{more}: one or two lines are no"
+            " evidence of an element, so it excludes no other structure"
         )
 
 

@@ -198,7 +198,7 @@ def cost_in_words(cost: AnyCost) -> str:
     """
     alone = cost.parts[0]
     if cost.case is Case.COMPLEX and alone.lines is not None:
-        return f"{CASES[cost.case]}, each in units of what the line scatters by"
+        return f"{CASES[cost.case]}, each in units of the scatter of its line"
     first, second = alone.weights or ((pi, 1.0) if cost.case is Case.LOGARITHM else (1.0, 1.0))
     if first == second:
         return CASES[cost.case]
