@@ -56,7 +56,7 @@ SITE = (
 LARGEST_REQUEST = 2**20  # bytes of a JSON request
 LARGEST_FILE = 200 * 10**6  # bytes of a measured file
 MOST_FILES = 1000  # of a project
-WORKERS = 2  # that answer quick calls
+WORKERS = 3  # that answer quick calls: a page keeps two at most with slow ones
 MEDIA = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 SHOWN = (".html", ".svg", ".png", ".pdf")  # files that a browser shows; others are saved
 

@@ -16,7 +16,8 @@ const MOST = 6; // of a menu, beside the machine
 const kept = (name, key) => `m_${name}_${key}`;
 
 export const start = async (root, call) => {
-  let turn = 0, timer = null, slow = Promise.resolve(), now = null, values = {};
+  const queues = { known: Promise.resolve(), more: Promise.resolve() };
+  let turn = 0, timer = null, now = null, values = {};
   const text = element("input", { type: "text", id: "machine-text", spellcheck: "false", autocomplete: "off", maxlength: 5000, "aria-describedby": "machine-trouble" });
   const gallery = element("select", { id: "machine-gallery" }, element("option", { value: "" }, "Choose …"), GALLERY.map(([title, of]) => element("option", { value: of }, title)));
   const trouble = element("p", { class: "trouble", id: "machine-trouble", role: "alert" });
@@ -72,25 +73,27 @@ export const start = async (root, call) => {
     bench.show("parts" in request ? request.parts : parts, request.places);
     showList(parts);
   };
-  const later = (isCurrent, work) => { // slow questions one after the other, and only those of the machine that is there
-    slow = slow.then(() => (isCurrent() ? work() : null));
-    return slow;
+  // Slow questions of a kind one after the other, and only those of the machine that is there: so a worker is free for the next change.
+  const inTurn = (queue, isCurrent, work) => {
+    queues[queue] = queues[queue].then(() => (isCurrent() ? work() : null));
+    return queues[queue];
   };
+  const later = (isCurrent, work) => inTurn("more", isCurrent, work);
   const answerAll = async ({ text: of, sensors }, isCurrent) => {
     answers.classList.remove("stale");
     next.replaceChildren();
     const [known, rows] = await Promise.all([
-      later(isCurrent, () => waitFor(determined, "Deciding", call("determine", { text: of }), showDetermined, isCurrent)),
+      inTurn("known", isCurrent, () => waitFor(determined, "Deciding", call("determine", { text: of }), showDetermined(of), isCurrent)),
       waitFor(alike, "Looking up", call("alike", { text: of, values }), (answer) => showAlike(answer, of, isCurrent), isCurrent)]);
     if (!isCurrent()) return;
     const row = rows?.rows.find(({ others }) => others.some(({ relation }) => relation === "indistinguishable"));
     const same = (row?.others ?? []).filter(({ relation }) => relation === "indistinguishable").map(({ name }) => name).slice(0, MOST);
     await showNext({ of, same, sensors: known && known.levels.some(({ level }) => level !== "global") ? sensors : [] }, isCurrent);
   };
-  const showDetermined = (answer) => {
+  const showDetermined = (of) => (answer) => {
     const groups = Map.groupBy ? Map.groupBy(answer.levels, ({ level }) => level) : answer.levels.reduce((map, one) => map.set(one.level, [...(map.get(one.level) ?? []), one]), new Map());
     return [
-      element("p", { class: "verdict" }, answer.sentence),
+      element("p", { class: "verdict", "data-of": of }, answer.sentence),
       facts([...[...groups].map(([level, some]) => [level, some.map(({ name }) => name).join(", ")]), ["certainty", answer.certainty], ["reason", answer.reason]]),
       commandFold(answer.command)];
   };
