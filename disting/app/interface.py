@@ -37,6 +37,11 @@ class Call:
     is_job: bool = False
     seconds: float = QUICK
 
+    @property
+    def is_light(self) -> bool:
+        """Return True for a call that only handles files of the project."""
+        return self.module == "project"
+
     def load(self) -> Callable[..., Json]:
         """Import the function, which loads numerical libraries."""
         function: Callable[..., Json] = getattr(
