@@ -63,7 +63,7 @@ CALLS = {
         Call("fit", "fitting", "fit", is_job=True, seconds=LONG),
         Call("fits", "project", "list_fits"),
         Call("machine", "machine", "draw_machine", seconds=60.0),
-        Call("determine", "machine", "determine", seconds=30.0),
+        Call("determine", "machine", "determine", seconds=60.0),
         Call("alike", "machine", "find_alike", seconds=60.0),
         Call("separate", "machine", "separate", seconds=60.0),
         Call("sensor", "machine", "add_sensor", seconds=30.0),

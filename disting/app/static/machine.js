@@ -27,9 +27,9 @@ export const start = async (root, call) => {
   const editor = element("div", {}, bench.nodes, list), asText = element("p", { class: "hint", hidden: true }, "Circuits and compartments are written as text: change the text above.");
   const answers = element("div", { class: "answers" });
   answers.append(
-    element("section", {}, element("h3", {}, "Which parameters can be determined"), determined),
-    element("section", {}, element("h3", {}, "What looks the same"), alike),
-    element("section", {}, element("h3", {}, "What to measure next"), next));
+    element("section", {}, element("h2", {}, "Which parameters can be determined"), determined),
+    element("section", {}, element("h2", {}, "What looks the same"), alike),
+    element("section", {}, element("h2", {}, "What to measure next"), next));
   root.append(
     element("h1", { class: "unseen" }, "Machine"),
     element("section", {},
@@ -39,7 +39,7 @@ export const start = async (root, call) => {
       trouble, editor, asText, drawing),
     answers);
 
-  const read = async (request) => {
+  const read = async (request, at = {}) => {
     const mine = ++turn, isCurrent = () => mine === turn;
     clearTimeout(timer);
     answers.classList.add("stale");
@@ -55,7 +55,7 @@ export const start = async (root, call) => {
     if (now?.text !== answer.text) values = answer.values;
     now = answer;
     if ("parts" in request) text.value = answer.text;
-    showEditor(request);
+    showEditor(request, at);
     drawing.replaceChildren(picture(answer.drawing), element("p", { class: "hint" }, answer.words), ...(answer.unseen.length ? [element("p", {}, `Without effect on the response: ${answer.unseen.join(", ")}.`)] : []), showValues(isCurrent));
     call("save", { page: "machine", content: { text: answer.text, places: bench.places() } }).catch(() => {});
     await answerAll(answer, isCurrent);
@@ -65,12 +65,12 @@ export const start = async (root, call) => {
       values = { ...values, [name]: event.target.value.trim() };
       if (isCurrent()) answerAll(now, isCurrent);
     } })))));
-  const showEditor = (request) => {
+  const showEditor = (request, at) => {
     const { parts } = now;
     editor.hidden = !parts;
     asText.hidden = Boolean(parts);
     if (!parts) return;
-    bench.show("parts" in request ? request.parts : parts, request.places);
+    bench.show("parts" in request ? request.parts : parts, at);
     showList(parts);
   };
   // Slow questions of a kind one after the other, and only those of the machine that is there: so a worker is free for the next change.
@@ -100,7 +100,7 @@ export const start = async (root, call) => {
   const showAlike = ({ rows }, of, isCurrent) => {
     if (!rows.length) return element("p", {}, "No catalogue lists this model. The page Two models compares it with any other one.");
     return rows.flatMap(({ title, sentence, others, command }) => [
-      element("h4", {}, title), element("p", {}, sentence),
+      element("h3", {}, title), element("p", {}, sentence),
       element("ul", { class: "others" }, others.slice(0, SHOWN).map((other) => showOther(other, of, isCurrent))),
       others.length > SHOWN ? folded(`${others.length - SHOWN} more`, element("ul", { class: "others" }, others.slice(SHOWN).map((other) => showOther(other, of, isCurrent, false)))) : null,
       others.length ? commandFold(command) : null]);
@@ -121,8 +121,8 @@ export const start = async (root, call) => {
     if (!same.length && !sensors.length) next.replaceChildren(element("p", {}, "Nothing more is needed: every parameter has one value, and no listed model is the same for all values."));
     if (same.length)
       later(isCurrent, () => waitFor(apart, "What separates the models that look the same", call("separate", { text: of, others: same }), ({ sentence, least, command }) => [
-        element("h4", {}, "To separate it from what looks the same"), element("p", {}, sentence), element("p", {}, `If it is this machine: ${least}.`), commandFold(command)], isCurrent));
-    if (sensors.length) more.append(element("h4", {}, "A further sensor, to determine more parameters"));
+        element("h3", {}, "To separate it from what looks the same"), element("p", {}, sentence), element("p", {}, `If it is this machine: ${least}.`), commandFold(command)], isCurrent));
+    if (sensors.length) more.append(element("h3", {}, "A further sensor, to determine more parameters"));
     for (const mass of sensors) {
       const line = element("div", { class: "answer" });
       more.append(line);
@@ -162,10 +162,10 @@ export const start = async (root, call) => {
   gallery.addEventListener("change", () => {
     if (!gallery.value) return;
     text.value = gallery.value;
-    read({ text: text.value, places: {} });
+    read({ text: text.value });
   });
   bench.show(EMPTY);
   const saved = (await call("open", { page: "machine" }).catch(() => ({ content: null }))).content;
   text.value = typeof saved?.text === "string" ? saved.text : GALLERY[0][1];
-  await read({ text: text.value });
+  await read({ text: text.value }, saved?.places ?? {});
 };
