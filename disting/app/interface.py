@@ -37,6 +37,11 @@ class Call:
     is_job: bool = False
     seconds: float = QUICK
 
+    @property
+    def is_light(self) -> bool:
+        """Return True for a call that only handles files of the project."""
+        return self.module == "project"
+
     def load(self) -> Callable[..., Json]:
         """Import the function, which loads numerical libraries."""
         function: Callable[..., Json] = getattr(
@@ -60,13 +65,13 @@ CALLS = {
         Call("machine", "machine", "draw_machine", seconds=60.0),
         Call("determine", "machine", "determine", seconds=60.0),
         Call("alike", "machine", "find_alike", seconds=60.0),
-        Call("separate", "machine", "separate", seconds=120.0),
-        Call("sensor", "machine", "add_sensor", seconds=60.0),
+        Call("separate", "machine", "separate", seconds=60.0),
+        Call("sensor", "machine", "add_sensor", seconds=30.0),
         Call("compare", "pair", "compare_two"),
         Call("decide", "pair", "decide_two", is_job=True, seconds=LONG),
         Call("formulas", "pair", "find_formulas", seconds=60.0),
-        Call("values", "pair", "find_values", seconds=60.0),
-        Call("motion", "pair", "show_motion", seconds=60.0),
+        Call("values", "pair", "find_values", seconds=30.0),
+        Call("motion", "pair", "show_motion", seconds=30.0),
         Call("evidence", "pair", "write_evidence", seconds=60.0),
         Call("open", "project", "open_state"),
         Call("save", "project", "save_state"),

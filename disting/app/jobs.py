@@ -7,7 +7,7 @@ since it uses all processors, others wait in order. Both are bounded in number, 
 import asyncio
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from disting.app.interface import Call, Json
 from disting.app.workers import Failure, Setting, Worker
@@ -200,12 +200,17 @@ def _silent(*_: object) -> None:
 
 
 @asynccontextmanager
-async def working(setting: Setting, size: int) -> AsyncIterator[tuple[Pool, Jobs]]:
-    """Workers while the server runs; they end with it."""
-    pool, jobs = Pool(setting, size), Jobs(setting)
+async def working(setting: Setting, size: int) -> AsyncIterator[tuple[Pool, Pool, Jobs]]:
+    """Workers while the server runs: one for files alone, which does not wait until the others
+    have loaded numerical libraries, those for other quick calls, those for jobs.
+    """
+    files, pool = Pool(replace(setting, loads=False), 1), Pool(setting, size)
+    jobs = Jobs(setting)
     try:
+        await files.start()
         await pool.start()
-        yield pool, jobs
+        yield files, pool, jobs
     finally:
         jobs.end()
+        await asyncio.to_thread(files.end)
         await asyncio.to_thread(pool.end)

@@ -89,7 +89,7 @@ def find_values(request: Json) -> Json:
     given = ",".join(f"{name}={value}" for name, value in values.items())
     return {
         "given": values,
-        "sets": [{n: _written(x) for n, x in one.items()} for one in found.sets],
+        "sets": [{n: _spell(x) for n, x in one.items()} for one in found.sets],
         "extent": EXTENTS.get(found.extent, found.extent),
         "command": command("equivalents", left, "--to", right, *damping, "--set", given),
     }
@@ -187,6 +187,6 @@ def _names(machine: Network) -> list[str]:
     return list(names) if isinstance(names, list) else []
 
 
-def _written(value: Any) -> str:
+def _spell(value: Any) -> str:
     """A value as text, rounded where its fraction is long."""
     return spell(value) if len(str(value)) <= LONGEST else spell(float(value))

@@ -56,7 +56,7 @@ SITE = (
 LARGEST_REQUEST = 2**20  # bytes of a JSON request
 LARGEST_FILE = 200 * 10**6  # bytes of a measured file
 MOST_FILES = 1000  # of a project
-WORKERS = 2  # that answer quick calls
+WORKERS = 3  # that answer quick calls: a page keeps two at most with slow ones
 MEDIA = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 SHOWN = (".html", ".svg", ".png", ".pdf")  # files that a browser shows; others are saved
 
@@ -66,6 +66,7 @@ class State:
     """Folder and workers that the addresses share."""
 
     folder: Path
+    files: Pool
     pool: Pool
     jobs: Jobs
 
@@ -76,8 +77,8 @@ def make_app(setting: Setting, keys: Keys) -> Asgi:
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
         """Workers while the server runs."""
-        async with working(setting, WORKERS) as (pool, jobs):
-            app.state.own = State(setting.folder, pool, jobs)
+        async with working(setting, WORKERS) as (files, pool, jobs):
+            app.state.own = State(setting.folder, files, pool, jobs)
             yield
 
     routes = [
@@ -164,7 +165,8 @@ async def call(request: Request) -> Response:
     _check(content, wanted.name)
     if wanted.is_job:
         return _answer({"job": own.jobs.begin(wanted, content).number}, 202)
-    return _answer(await own.pool.answer(wanted, content))
+    pool = own.files if wanted.is_light else own.pool
+    return _answer(await pool.answer(wanted, content))
 
 
 async def jobs_list(request: Request) -> Response:

@@ -26,6 +26,9 @@ from disting.errors import DistingError, brief
 from disting.store.scheduling import end_with_parent
 
 MEMORY = 4 * 2**30  # bytes of address space of one process
+START = (
+    300.0  # seconds in which a worker starts and loads what a call needs, however busy the machine
+)
 GRACE = 2.0  # seconds in which a process may end by itself
 TROUBLES = "app-errors.txt"  # in the project folder, what a defect of the program left
 LIBRARIES = ("numpy", "scipy.optimize", "scipy.stats", "scipy.signal")  # which take long to load
@@ -48,6 +51,7 @@ class Setting:
     folder: Path
     jobs: int = 1
     scheduler: str = ""
+    loads: bool = True  # ahead, while nothing is asked for
 
 
 class Worker:
@@ -62,12 +66,14 @@ class Worker:
 
     def ask(self, call: Call, request: Json, progress: Progress) -> Json:
         """Answer of a call. Raises Failure; the worker is ended where it was too slow."""
-        until = monotonic() + call.seconds
+        until = monotonic() + START
         try:
             self._pipe.send((call.name, request))
             while self._pipe.poll(max(0.0, until - monotonic())):
                 kind, *content = self._pipe.recv()
-                if kind == "progress":
+                if kind == "begun":
+                    until = monotonic() + call.seconds
+                elif kind == "progress":
                     progress(*content)
                 elif kind == "answer":
                     answer: Json = content[0]
@@ -78,7 +84,7 @@ class Worker:
             self.end()
             raise Failure(500, "the computation ended unexpectedly; ask for it again") from None
         self.end()
-        raise Failure(504, f"not finished after {call.seconds:g} s, so it was stopped")
+        raise Failure(504, f"not finished in {call.seconds:g} s, so it was stopped; ask for less")
 
     @property
     def is_alive(self) -> bool:
@@ -109,7 +115,7 @@ def _serve(pipe: Connection, setting: Setting) -> None:
     threading.Thread(target=end_with_parent, daemon=True).start()
     _limit_memory()
     os.chdir(setting.folder)
-    to_load = _list_loads()
+    to_load = _list_loads() if setting.loads else []
     while True:
         try:
             while to_load and not pipe.poll(IDLE):
@@ -117,14 +123,18 @@ def _serve(pipe: Connection, setting: Setting) -> None:
             name, request = pipe.recv()
         except (EOFError, OSError):
             return
-        pipe.send(_answer(CALLS[name], request, lambda *p: pipe.send(("progress", *p)), setting))
+        pipe.send(_answer(CALLS[name], request, lambda *word: pipe.send(word), setting))
 
 
-def _answer(call: Call, request: Json, progress: Progress, setting: Setting) -> tuple[Any, ...]:
-    """The message that answers a call."""
+def _answer(
+    call: Call, request: Json, send: Callable[..., None], setting: Setting
+) -> tuple[Any, ...]:
+    """The message that answers a call; `send` takes what comes before it."""
     try:
         function = call.load()
-        answer = function(request, progress, setting) if call.is_job else function(request)
+        send("begun")
+        more = (partial(send, "progress"), setting) if call.is_job else ()
+        answer = function(request, *more)
     except DistingError as reason:
         return ("failure", 422, str(reason))
     except MemoryError:

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import quote
 
-STARTS = 60.0  # seconds that a client waits for an answer at most
+STARTS = 300.0  # seconds that a client waits for an answer at most
 
 
 class Served:
@@ -104,7 +104,7 @@ def serving(
         yield Served(process, folder, found[1])
     finally:
         process.send_signal(signal.SIGINT)
-        process.wait(30)
+        process.wait(60)
 
 
 def bench_csv(lines: int = 80) -> bytes:

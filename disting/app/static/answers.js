@@ -9,7 +9,7 @@ export const picture = (text) => {
 
 export const facts = (rows) => element("dl", { class: "facts-of-answer" }, rows.filter(([, value]) => value).map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value))));
 
-export const folded = (title, ...children) => element("details", { class: "fold" }, element("summary", {}, element("h4", {}, title)), children);
+export const folded = (title, ...children) => element("details", { class: "fold" }, element("summary", {}, element("strong", {}, title)), children);
 
 export const commandFold = (text) => folded("Command", command(text));
 

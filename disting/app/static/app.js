@@ -23,8 +23,17 @@ const show = async (name, focus = false) => {
   if (started.has(name)) return;
   started.set(name, true);
   const [, , path] = PAGES.find(([own]) => own === name);
-  const { start } = await import(path);
-  await start(document.getElementById(`page-${name}`), call);
+  const panel = document.getElementById(`page-${name}`);
+  try {
+    const { start } = await import(path);
+    await start(panel, call);
+  } catch (error) {
+    const told = document.createElement("p");
+    told.setAttribute("role", "alert");
+    told.className = "warning";
+    told.textContent = error.message;
+    panel.prepend(told);
+  }
 };
 
 for (const [name, title] of PAGES) {

@@ -23,13 +23,13 @@ export const start = async (root, call) => {
   const [left, leftField] = field("compare-left", "Model 1"), [right, rightField] = field("compare-right", "Model 2");
   const swap = element("button", { type: "button", class: "plainbutton", "aria-label": "Exchange the two models", onclick: () => show(right.value, left.value) }, "⇄");
   const verdict = element("div", { class: "answer", id: "pair-verdict" }), formulas = element("div", { class: "answer", id: "pair-formulas" }), values = element("div", { class: "answer", id: "pair-values" });
-  const motion = createMotion(), moving = element("section", { hidden: true }, element("h3", {}, "In motion"), motion.nodes);
-  const map = element("section", { hidden: true }, element("h3", {}, "Values of model 2 from those of model 1"), formulas, values);
+  const motion = createMotion(), moving = element("section", { hidden: true }, element("h2", {}, "In motion"), motion.nodes);
+  const map = element("section", { hidden: true }, element("h2", {}, "Values of model 2 from those of model 1"), formulas, values);
   root.append(
     element("h1", { class: "unseen" }, "Two models"),
     element("section", {}, element("p", { class: "hint" }, "A number such as 3:11, a machine, a circuit or compartments, in any notation."),
       element("div", { class: "pair-fields" }, leftField, swap, rightField)),
-    element("section", {}, element("h3", {}, "Verdict"), verdict), map, moving);
+    element("section", {}, element("h2", {}, "Verdict"), verdict), map, moving);
 
   const showVerdict = (pair) => (answer) => [
     element("div", { class: "two-drawings" }, answer.drawings.map((drawn, i) => element("figure", {}, element("figcaption", {}, [pair.left, pair.right][i]), drawn ? picture(drawn) : null))),

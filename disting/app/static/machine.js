@@ -16,7 +16,8 @@ const MOST = 6; // of a menu, beside the machine
 const kept = (name, key) => `m_${name}_${key}`;
 
 export const start = async (root, call) => {
-  let turn = 0, timer = null, slow = Promise.resolve(), now = null, values = {};
+  const queues = { known: Promise.resolve(), more: Promise.resolve() };
+  let turn = 0, timer = null, now = null, values = {};
   const text = element("input", { type: "text", id: "machine-text", spellcheck: "false", autocomplete: "off", maxlength: 5000, "aria-describedby": "machine-trouble" });
   const gallery = element("select", { id: "machine-gallery" }, element("option", { value: "" }, "Choose …"), GALLERY.map(([title, of]) => element("option", { value: of }, title)));
   const trouble = element("p", { class: "trouble", id: "machine-trouble", role: "alert" });
@@ -26,9 +27,9 @@ export const start = async (root, call) => {
   const editor = element("div", {}, bench.nodes, list), asText = element("p", { class: "hint", hidden: true }, "Circuits and compartments are written as text: change the text above.");
   const answers = element("div", { class: "answers" });
   answers.append(
-    element("section", {}, element("h3", {}, "Which parameters can be determined"), determined),
-    element("section", {}, element("h3", {}, "What looks the same"), alike),
-    element("section", {}, element("h3", {}, "What to measure next"), next));
+    element("section", {}, element("h2", {}, "Which parameters can be determined"), determined),
+    element("section", {}, element("h2", {}, "What looks the same"), alike),
+    element("section", {}, element("h2", {}, "What to measure next"), next));
   root.append(
     element("h1", { class: "unseen" }, "Machine"),
     element("section", {},
@@ -38,7 +39,7 @@ export const start = async (root, call) => {
       trouble, editor, asText, drawing),
     answers);
 
-  const read = async (request) => {
+  const read = async (request, at = {}) => {
     const mine = ++turn, isCurrent = () => mine === turn;
     clearTimeout(timer);
     answers.classList.add("stale");
@@ -54,7 +55,7 @@ export const start = async (root, call) => {
     if (now?.text !== answer.text) values = answer.values;
     now = answer;
     if ("parts" in request) text.value = answer.text;
-    showEditor(request);
+    showEditor(request, at);
     drawing.replaceChildren(picture(answer.drawing), element("p", { class: "hint" }, answer.words), ...(answer.unseen.length ? [element("p", {}, `Without effect on the response: ${answer.unseen.join(", ")}.`)] : []), showValues(isCurrent));
     call("save", { page: "machine", content: { text: answer.text, places: bench.places() } }).catch(() => {});
     await answerAll(answer, isCurrent);
@@ -64,40 +65,42 @@ export const start = async (root, call) => {
       values = { ...values, [name]: event.target.value.trim() };
       if (isCurrent()) answerAll(now, isCurrent);
     } })))));
-  const showEditor = (request) => {
+  const showEditor = (request, at) => {
     const { parts } = now;
     editor.hidden = !parts;
     asText.hidden = Boolean(parts);
     if (!parts) return;
-    bench.show("parts" in request ? request.parts : parts, request.places);
+    bench.show("parts" in request ? request.parts : parts, at);
     showList(parts);
   };
-  const later = (isCurrent, work) => { // slow questions one after the other, and only those of the machine that is there
-    slow = slow.then(() => (isCurrent() ? work() : null));
-    return slow;
+  // Slow questions of a kind one after the other, and only those of the machine that is there: so a worker is free for the next change.
+  const inTurn = (queue, isCurrent, work) => {
+    queues[queue] = queues[queue].then(() => (isCurrent() ? work() : null));
+    return queues[queue];
   };
+  const later = (isCurrent, work) => inTurn("more", isCurrent, work);
   const answerAll = async ({ text: of, sensors }, isCurrent) => {
     answers.classList.remove("stale");
     next.replaceChildren();
     const [known, rows] = await Promise.all([
-      later(isCurrent, () => waitFor(determined, "Deciding", call("determine", { text: of }), showDetermined, isCurrent)),
+      inTurn("known", isCurrent, () => waitFor(determined, "Deciding", call("determine", { text: of }), showDetermined(of), isCurrent)),
       waitFor(alike, "Looking up", call("alike", { text: of, values }), (answer) => showAlike(answer, of, isCurrent), isCurrent)]);
     if (!isCurrent()) return;
     const row = rows?.rows.find(({ others }) => others.some(({ relation }) => relation === "indistinguishable"));
     const same = (row?.others ?? []).filter(({ relation }) => relation === "indistinguishable").map(({ name }) => name).slice(0, MOST);
     await showNext({ of, same, sensors: known && known.levels.some(({ level }) => level !== "global") ? sensors : [] }, isCurrent);
   };
-  const showDetermined = (answer) => {
+  const showDetermined = (of) => (answer) => {
     const groups = Map.groupBy ? Map.groupBy(answer.levels, ({ level }) => level) : answer.levels.reduce((map, one) => map.set(one.level, [...(map.get(one.level) ?? []), one]), new Map());
     return [
-      element("p", { class: "verdict" }, answer.sentence),
+      element("p", { class: "verdict", "data-of": of }, answer.sentence),
       facts([...[...groups].map(([level, some]) => [level, some.map(({ name }) => name).join(", ")]), ["certainty", answer.certainty], ["reason", answer.reason]]),
       commandFold(answer.command)];
   };
   const showAlike = ({ rows }, of, isCurrent) => {
     if (!rows.length) return element("p", {}, "No catalogue lists this model. The page Two models compares it with any other one.");
     return rows.flatMap(({ title, sentence, others, command }) => [
-      element("h4", {}, title), element("p", {}, sentence),
+      element("h3", {}, title), element("p", {}, sentence),
       element("ul", { class: "others" }, others.slice(0, SHOWN).map((other) => showOther(other, of, isCurrent))),
       others.length > SHOWN ? folded(`${others.length - SHOWN} more`, element("ul", { class: "others" }, others.slice(SHOWN).map((other) => showOther(other, of, isCurrent, false)))) : null,
       others.length ? commandFold(command) : null]);
@@ -118,8 +121,8 @@ export const start = async (root, call) => {
     if (!same.length && !sensors.length) next.replaceChildren(element("p", {}, "Nothing more is needed: every parameter has one value, and no listed model is the same for all values."));
     if (same.length)
       later(isCurrent, () => waitFor(apart, "What separates the models that look the same", call("separate", { text: of, others: same }), ({ sentence, least, command }) => [
-        element("h4", {}, "To separate it from what looks the same"), element("p", {}, sentence), element("p", {}, `If it is this machine: ${least}.`), commandFold(command)], isCurrent));
-    if (sensors.length) more.append(element("h4", {}, "A further sensor, to determine more parameters"));
+        element("h3", {}, "To separate it from what looks the same"), element("p", {}, sentence), element("p", {}, `If it is this machine: ${least}.`), commandFold(command)], isCurrent));
+    if (sensors.length) more.append(element("h3", {}, "A further sensor, to determine more parameters"));
     for (const mass of sensors) {
       const line = element("div", { class: "answer" });
       more.append(line);
@@ -159,10 +162,10 @@ export const start = async (root, call) => {
   gallery.addEventListener("change", () => {
     if (!gallery.value) return;
     text.value = gallery.value;
-    read({ text: text.value, places: {} });
+    read({ text: text.value });
   });
   bench.show(EMPTY);
   const saved = (await call("open", { page: "machine" }).catch(() => ({ content: null }))).content;
   text.value = typeof saved?.text === "string" ? saved.text : GALLERY[0][1];
-  await read({ text: text.value });
+  await read({ text: text.value }, saved?.places ?? {});
 };
