@@ -266,6 +266,67 @@ def test_lies_of_a_family_are_refused(check, tmp_path, what, lie):
     assert table_of(check, tmp_path, name, lie(records(name))).wrong, what
 
 
+def stored(key, *changes):
+    """Change entries of the first model's list: (place, value or the place that it is taken of)."""
+
+    def change(r):
+        for place, value in changes:
+            r[key][place] = r[key][value[0]] if isinstance(value, tuple) else value
+
+    return lambda lines: changed(lines, 1, change)
+
+
+def as_one_class(lines):
+    """Sets 1 and 2 of the first model told to be one class, with all that follows."""
+    lines = copy.deepcopy(lines)
+    old, new = lines[1]["group"][2], lines[1]["group"][1]
+    for r in lines[1:]:
+        for k, group in enumerate(r["group"]):
+            if group == old:
+                r["group"][k], r["columns"][k] = new, lines[1]["columns"][1]
+    return lines
+
+
+def alone(lines):
+    """A model of a class of several told to be a class of its own."""
+    lines = copy.deepcopy(lines)
+    of = lines[1]["group"] + lines[2]["group"]
+    number = next(g for g in of if of.count(g) > 1)
+    next(r for r in lines[1:] if number in r["group"])["group"][of.index(number) % 8] = 999
+    return lines
+
+
+DAMPERS = [
+    ("a rank", stored("rank", (1, 9))),
+    ("a class of its own", alone),
+    ("a member of another class", stored("group", (1, (2,)))),
+    ("two classes as one", as_one_class),
+    ("a column of another class", stored("columns", (1, (2,)))),
+    ("a column of a class that is not known", stored("columns", (1, [9] * 9))),
+    ("a renaming that is none", stored("renamed", (1, (2,)))),
+    ("a free choice that is none", stored("free", (0, 4))),
+    ("a list that is shorter", lambda lines: changed(lines, 1, lambda r: r["free"].pop())),
+    ("a model is missing", lambda lines: [lines[0], *lines[2:]]),
+    ("another condition", lambda lines: changed(lines, 0, lambda r: r["tests"].reverse())),
+    ("an open pair of one class", lambda lines: changed(
+        lines, 0, lambda r: r["undecided"].append([1, 1]))),
+]  # fmt: skip
+
+
+@pytest.mark.thin(1)
+@pytest.mark.parametrize(("what", "lie"), DAMPERS, ids=[what for what, _ in DAMPERS])
+def test_lies_of_classes_with_dampers_are_refused(check, tmp_path, what, lie):
+    assert table_of(check, tmp_path, "dampers-3-damped", lie(records("dampers-3-damped"))).wrong
+
+
+def test_classes_with_dampers_are_told_apart_by_dependences(check, tmp_path):
+    """Of 528 pairs of classes all but 17 differ by what depends on what."""
+    counts = table_of(check, tmp_path, "dampers-3-damped", records("dampers-3-damped")).counts
+    of = {why: row for (_, place, what, why), row in counts.items() if what == "distinguishable"}
+    assert of["invariants"][check.CHECKED] >= 511
+    assert sum(row[check.SEARCH] for row in of.values()) <= 17
+
+
 def test_a_file_that_is_none_is_wrong(check, tmp_path):
     path = tmp_path / "chains-2-damped.jsonl"
     path.write_text("{}\nnone", encoding="utf-8")
