@@ -991,11 +991,107 @@ def inequality(pair, e):
     return searched("form expanded; its signs are not seen by its terms")
 
 
+# parts that can replace each other (disting/guide/replacement.md)
+
+
+def in_series_or_parallel(n, c, z):
+    """(n, c, z) of F, of two kinds of elements, as that of 1/(x F), and back."""
+    return n + c + z - 1, 1 - z, 1 - c
+
+
+def items(part, way):
+    """(powers of single elements, {two powers: number of terms}, other parts) of a part that is
+    connected in this way, "series" or "parallel".
+    """
+    shape, *rest = part
+    if shape == "one":
+        return {rest[0]}, Counter(), []
+    if shape == "two":
+        a, b, *numbers = rest
+        n, c, z = numbers if way == "series" else in_series_or_parallel(*numbers)
+        return {power for power, on in ((a, c), (b, z)) if on}, Counter({(a, b): n}), []
+    if shape == way:
+        return set(rest[0]), Counter(dict(rest[1])), [*rest[2]]
+    return set(), Counter(), [part]
+
+
+def connected(way, parts):
+    """What a connection of parts can produce: ("one", power) for one kind of elements, ("two",
+    power, power, n, c, z) for two kinds, else what it consists of.
+    """
+    singles, terms, others = set(), Counter(), []
+    for part in parts:
+        one, two, rest = items(part, way)
+        singles, terms, others = singles | one, terms + two, others + rest
+    powers = sorted({*singles, *(x for two in terms for x in two)})
+    if len(powers) == 1 and not others:
+        return "one", powers[0]
+    if len(powers) == 2 and not others:
+        numbers = terms[tuple(powers)], *(int(x in singles) for x in powers)
+        return "two", *powers, *(numbers if way == "series" else in_series_or_parallel(*numbers))
+    return (
+        way,
+        tuple(sorted(singles)),
+        tuple(sorted(terms.items())),
+        tuple(sorted(others, key=repr)),
+    )
+
+
+def parts_of(m):
+    """{(node, node): part} when all parts in parallel or in series are connected."""
+    if m.fixed:
+        raise NotImplementedError("replacement of compartments")
+    ends, parts = {*m.force, *m.sensor}, {}
+
+    def put(a, b, part):
+        key = min(a, b), max(a, b)
+        parts[key] = connected("parallel", [parts[key], part]) if key in parts else part
+
+    for e in m.elements:
+        put(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power))
+    while True:
+        at = {}
+        for key in parts:
+            for x in key:
+                at.setdefault(x, []).append(key)
+        inner = next((x for x in sorted(at) if x not in ends and len(at[x]) <= 2), None)
+        if inner is None:
+            return parts
+        row = [parts.pop(key) for key in at[inner]]
+        if len(row) == 2:
+            put(*(x for key in at[inner] for x in key if x != inner), connected("series", row))
+
+
+@cache
+def normal_form(m):
+    """The parts and the ports, in the numbering that comes first: force and sensor may be
+    exchanged, and the signs of both reversed.
+    """
+    parts = parts_of(m)
+    nodes = sorted({*m.force, *m.sensor, *(x for key in parts for x in key)})
+    found = []
+    for numbers in permutations(range(len(nodes))):
+        to = dict(zip(nodes, numbers))
+        drawn = sorted((*sorted(to[x] for x in key), part) for key, part in parts.items())
+        ports = [tuple(to[x] for x in port) for port in (m.force, m.sensor)]
+        for pair in (ports, ports[::-1]):
+            found += [(pair, repr(drawn)), ([port[::-1] for port in pair], repr(drawn))]
+    return min(found)
+
+
+def replaceable(a, b):
+    """Whether two networks become the same when parts are labelled by what they can produce."""
+    return normal_form(a) == normal_form(b)
+
+
 def inner_of(pair, e):
     """Evidence on two networks that stand for these."""
     a, b = network(e["left"]), network(e["right"])
     inner = evidence(Pair(a, b, f"{pair.label} {e['left']} | {e['right']}", pair.scale), e["inner"])
     if inner.status == WRONG:
+        return inner
+    likes = e["kind"] == "replaced" and a.order == b.order and pair.left.order == pair.right.order
+    if likes and replaceable(pair.left, a) and replaceable(pair.right, b):
         return inner
     return searched("the networks that stand for these are not derived again")
 
@@ -1092,6 +1188,8 @@ def theorem(pair, e):
     """Whether the theorem's premises hold for two chains; those of networks are not derived."""
     a, b, name = pair.left, pair.right, e["name"]
     are_chains = is_chain(a) and is_chain(b)
+    if name == "replacement" and a.order == b.order and not are_chains and replaceable(a, b):
+        return Result(CHECKED, "parts that can replace each other")
     plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
     if not plain or name not in SAME_BY:
         return searched(f"theorem {name}: its premises are not derived again")
@@ -1225,6 +1323,12 @@ def step_row(row, element_, limit):
     return None
 
 
+def is_proper(n, gap, am, ap, mm, mp):
+    """Whether ports are in the rows to which they belong."""
+    below = range(1, gap + 1) if gap else (0,)
+    return 0 <= gap < n and {am, mm} <= {*below} and {ap, mp} <= {*range(gap + 1, n + 1)}
+
+
 def limit(pair, e):
     """Joints of the larger chain's rows that vanish or become rigid, one by one; a row that is not
     named comes to rest. With a count in addition the last step is not repeated.
@@ -1234,7 +1338,7 @@ def limit(pair, e):
         if shape:
             n, *rest = shape
             other = chain(n, *rest, indices(own)[6])
-            is_same = any(same_by(own, other, x) for x in SAME_BY)
+            is_same = is_proper(n, *rest) and any(same_by(own, other, x) for x in SAME_BY)
             if n != indices(own)[0] or not is_same:
                 return result(False, "a chain that is not the same")
             larger, smaller = (other, smaller) if own is larger else (larger, other)

@@ -4,6 +4,8 @@ other names, a relation that does not hold, and what an engine with a fault woul
 
 import copy
 import json
+import os
+import shutil
 import subprocess
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
@@ -58,6 +60,26 @@ def test_what_is_shipped_is_accepted(check, tmp_path, name):
     table = table_of(check, tmp_path, name, records(name))
     assert not table.wrong
     assert sum(row[check.CHECKED] + row[check.SEARCH] for row in table.counts.values()) > 5
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("name", ["chains-3-damped", "dampers-3-undamped", "networks-cells-4"])
+def test_another_python_gives_the_same_table(name):
+    """Isolated or not, with the site's packages or not, with other hashes of texts."""
+    path = shipped_folder() / f"{name}.jsonl"
+    tables = [
+        subprocess.run(
+            [interpreter, *flags, str(PATH), str(path)],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=os.environ | {"PYTHONHASHSEED": seed},
+        ).stdout.rpartition("\nall")[0]
+        for interpreter in filter(None, (sys.executable, shutil.which("pypy3")))
+        for flags, seed in ((["-I", "-S"], "0"), ([], "1"), ([], "2"))
+    ]
+    assert len(tables[0].splitlines()) > 5
+    assert len(set(tables)) == 1
 
 
 @pytest.mark.slow
@@ -191,6 +213,29 @@ def test_witnesses_that_do_not_fit_are_refused(check):
                 {"equivalent": [[n, f"{float(x) * 1.00001}"] for n, x in e["equivalent"]]},
                 {"point_with": [[name, "none"], *rest]}):  # fmt: skip
         assert check.evidence(pair, e | lie).status == check.WRONG, lie
+
+
+@pytest.mark.parametrize(("left", "right", "same"), [
+    ("R1-p(R2,C1)", "p(R1,R2-C1)", True), ("R1-p(R2,C1)", "R1-p(C1,R2-C2)", False),
+    ("L1-R1-p(R2,C1)-p(R3,C2)", "L1-p(R1,R2-C1,R3-C2)", True),
+    ("1~2, 1~3; F1; S1", "1~2, 2~3; F1; S1", True), ("#~1, 1~2; F1; S1", "1~2; F1; S1", False),
+    ("1=2, 1=3; F1; S1", "1=2, 2=3; F1; S1", False), ("1~2, 2~3; F1; S3", "1~2, 2~3; F3; S1", True),
+    ("1~2, 2~3; F1; S2", "1~2, 2~3; F1; S3", False),
+])  # fmt: skip
+def test_parts_that_can_replace_each_other(check, left, right, same):
+    assert check.replaceable(check.network(left), check.network(right)) == same
+
+
+@pytest.mark.thin(1)
+@pytest.mark.parametrize("name", ["networks-circuits-4", "networks-machines-3"])
+def test_networks_that_differ_cannot_be_replaced(check, name):
+    """No pair that is told to differ for some positive values has one normal form."""
+    models = {r["model"]: check.network(r["network"]) for r in records(name) if "network" in r}
+    pairs = [r for r in records(name) if "positive" in r]
+    for r in pairs:
+        if r["positive"]["relation"] in ("distinguishable", "sometimes"):
+            assert not check.replaceable(models[r["left"]], models[r["right"]])
+    assert len(pairs) > 50
 
 
 @pytest.mark.parametrize("name", ["chains-2-undamped", "networks-compartments-2"])
