@@ -5,9 +5,11 @@ other names, a relation that does not hold, and what an engine with a fault woul
 import copy
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+from importlib import resources
 from importlib.util import module_from_spec, spec_from_file_location
 
 import pytest
@@ -376,6 +378,14 @@ def test_a_file_that_is_none_is_wrong(check, tmp_path):
     path = tmp_path / "chains-2-damped.jsonl"
     path.write_text("{}\nnone", encoding="utf-8")
     assert run(path).returncode == 1
+
+
+def test_the_guide_names_every_kind_of_evidence(check):
+    page = (resources.files("disting") / "guide" / "checking.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`([^`]+)`", page))
+    kinds = {*check.CHECKS, *check.CERTAINTY, *check.SHOWS}
+    assert len(kinds) > 30
+    assert kinds - named == set()
 
 
 @pytest.mark.full
