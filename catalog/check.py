@@ -813,7 +813,7 @@ def explicit(pair, e):
     root, is not repeated.
     """
     p, plain = prime_of(pair.label), Counter()
-    if e["domain"] != "positive":
+    if e["domain"] not in ("positive", "real"):
         return result(False, "another domain")
     for k, (left_given, where, values, root) in enumerate(e["formulas"]):
         given, other = pair[:2] if left_given else pair[1::-1]
@@ -889,7 +889,8 @@ def witnesses(pair, e):
         set(m) for m in (given.names, other.names, without)
     ]:
         return result(False, "points of other parameters")
-    if e["domain"] != "positive" or min(*x.values(), *y.values()) <= 0:
+    lowest = min(*x.values(), *y.values())
+    if e["domain"] not in ("positive", "real") or (e["domain"] == "positive" and lowest <= 0):
         return result(False, "a point that is not positive")
     off = misfit(given, tuple(x.items()), other, tuple(y.items()))
     if off > FITS:
@@ -1864,6 +1865,8 @@ def finding(table, kind, where, told, pair, found=None):
     found, core = found or evidence(pair, e), e
     while "inner" in core:
         core = core["inner"]
+    if core.get("domain", "positive") != "positive":
+        found = Result(WRONG, "evidence over other values")
     if form != 10 or reason != "" or word != FINDING.get(SHOWS.get(core["kind"])):
         found = Result(WRONG, "a finding that its evidence does not show")
     if not is_certain(certainty, bits, e) or not is_certain(certainty, bits, core):

@@ -374,6 +374,17 @@ def test_classes_with_dampers_are_told_apart_by_dependences(check, tmp_path):
     assert sum(row[check.SEARCH] for row in of.values()) <= 17
 
 
+def test_formulas_over_real_values_are_no_finding_over_positive_ones(check):
+    pairs = pairs_of(check, "networks-cells-4")
+    pair, e = next((pair, e) for pair, _, e in pairs if e["kind"] == "explicit")
+    real = e | {"domain": "real"}
+    assert check.evidence(pair, real).status != check.WRONG
+    for evidence, wrong in ((e, False), (real, True)):
+        table = check.Table()
+        check.finding(table, "", "", [10, "holds", "proven", 0, evidence, ""], pair)
+        assert bool(table.wrong) == wrong
+
+
 def test_a_file_that_is_none_is_wrong(check, tmp_path):
     path = tmp_path / "chains-2-damped.jsonl"
     path.write_text("{}\nnone", encoding="utf-8")
