@@ -146,6 +146,17 @@ def at(a, x, p):
     return value
 
 
+def expand(a, b, top, p, count):
+    """Coefficients of a/b in 1/s; the first is that of s^(top - degree of b)."""
+    a, back, out = (a + [0] * (top + 1 - len(a)))[::-1], b[::-1], []
+    inverse = pow(back[0], -1, p)
+    for k in range(count):
+        x = a[k] if k < len(a) else 0
+        x -= sum(back[j] * out[k - j] for j in range(1, min(k, len(b) - 1) + 1))
+        out.append(x * inverse % p)
+    return out
+
+
 @cache
 def interpolation(xs, p):
     """Of the Lagrange polynomials of these places the coefficients, by power."""
@@ -186,6 +197,18 @@ def reduced(rows, width, p):
 def rank_of(rows, p):
     """Rank of a matrix modulo p."""
     return len(reduced(rows, len(rows[0]) if rows else 0, p)[1])
+
+
+def dependences(vectors, p):
+    """Which vectors depend on which. The reduced echelon form writes each vector in the first
+    independent ones; places that are not zero are the same in all bases of the space.
+    Seen from the first vector and from the last one.
+    """
+    out = []
+    for order in (vectors, vectors[::-1]):
+        rows, pivots, _ = reduced(zip(*order), len(order), p)
+        out.append((tuple(pivots), tuple(tuple(map(bool, r)) for r in rows[: len(pivots)])))
+    return out[0], out[1]
 
 
 def inverse_of(rows, p):
@@ -496,6 +519,8 @@ class Profile:
         return [f"b{i}" for i in range(n + 1)] + [f"a{i}" for i in range(m)]
 
     def gradient(self, label):
+        if not re.fullmatch(r"Td|[abG](0|[1-9]\d?)", label):
+            raise ValueError(f"no coefficient: {label}")
         if label == "Td":
             return [int(n == "Td" and self.model.delay) for n in self.model.names]
         if label[0] == "G":
@@ -516,28 +541,35 @@ class Profile:
         return plain[index], [slopes[n][index] for n in self.model.names]
 
     @cache  # noqa: B019 - profiles are kept as long as the program runs
-    def _expand(self, count=28):
-        p, m = self.p, len(self.den) - 1
-
-        def expand(a, top):
-            """a/den in 1/s, from s^top downwards."""
-            a, out = (a + [0] * (top + m + 1 - len(a)))[::-1], []
-            back = self.den[::-1]
-            for k in range(count):
-                x = a[k] if k < len(a) else 0
-                x -= sum(back[j] * out[k - j] for j in range(1, min(k, m) + 1))
-                out.append(x % p)
-            return out
-
-        if len(self.num) > len(self.den):
+    def _expand(self, inverse=False, count=28):
+        """Coefficients of H in 1/s from s^0 downwards, and their derivatives by parameter; of 1/H
+        from its first power.
+        """
+        a, b, p = self.num, self.den, self.p
+        if len(a) > len(b) and not inverse:
             raise NotImplementedError("improper")
-        plain = expand(self.num, 0)
+        a, b = (b, a) if inverse else (a, b)
+        top, m = len(self.den) - 1, len(b) - 1
+        plain = expand(a, b, top, p, count)
         slopes = {}
         for n, (u, v) in self.slopes.items():
-            first, second = expand(u, 0), expand(v, 0)
+            u, v = (v, u) if inverse else (u, v)
+            first, second = expand(u, b, top, p, count), expand(v, b, m, p, count)
             product = [sum(second[i] * plain[k - i] for i in range(k + 1)) for k in range(count)]
             slopes[n] = [(x - y) % p for x, y in zip(first, product)]
         return plain, slopes
+
+    @cache  # noqa: B019
+    def dependent(self, kind):
+        """Which functions of a kind depend on which: b0.., a0.. ("H"), or the coefficients in 1/s
+        of H ("G") or 1/H ("1/G").
+        """
+        if kind == "H":
+            vectors = [self.gradient(x) for x in self.labels]
+        else:
+            slopes = self._expand(kind == "1/G")[1]
+            vectors = list(zip(*(slopes[n][: sum(self.degrees) + 2] for n in self.model.names)))
+        return dependences(vectors, self.p)
 
     def rank(self, labels=None):
         labels = [*self.labels, *["Td"] * self.model.delay] if labels is None else labels
@@ -641,6 +673,9 @@ def ranks(pair, e):
     """The same coefficients have different numbers of independent values."""
     a, b = sides(pair)
     rows, every = set(e["rows"]), (a.full_rank, b.full_rank)
+    own = {*a.labels, *b.labels, "Td"}
+    if len(rows) < len(e["rows"]) or not all(x in own or x[0] == "G" for x in rows):
+        return result(False, "coefficients that are none")
     found = every if e["all_rows"] else (a.rank(e["rows"]), b.rank(e["rows"]))
     whole = e["rows"][:1] == ["G0"] or a.varying <= rows or b.varying <= rows
     if e["all_rows"] and not whole:  # the rows that are named are those of one of the two
@@ -652,6 +687,8 @@ def renaming(pair, e):
     """One model is the other with parameters renamed, compared at a random point."""
     p, (left, right, label, _) = prime_of(pair.label), pair
     names = [sorted(x) for x in zip(*e["pairs"])]
+    if e["symmetries"] and moved(left, e["symmetries"]) != moved(right, []):
+        return result(False, "the symmetries lead to another model")
     if names != [sorted(left.names), sorted(right.names)]:
         return result(False, "the renaming names other parameters")
     x = draw(label, left.names, p)
@@ -672,8 +709,8 @@ def free_choice(pair, e):
 
 def embedded(part, whole, numbering):
     """Whether the part's elements and ports are among those of the whole."""
-    to = {0: 0, **dict(map(tuple, numbering))}
-    if len(set(to.values())) < len(to) or set(to) != set(range(part.nodes + 1)):
+    to = dict(map(tuple, numbering))
+    if len(set(to.values())) < len(numbering) or set(to) != set(range(part.nodes + 1)) or to[0]:
         return False
 
     def spot(e, via):
@@ -730,7 +767,7 @@ def solutions(pair, e):
 
 def drawn_by(m):
     """Names by which the engine draws values: those of a chain, p1, p2, .. of a network."""
-    return m.names if m.text.startswith("chain ") else [f"p{i + 1}" for i in range(len(m.names))]
+    return m.names if is_chain(m) else [f"p{i + 1}" for i in range(len(m.names))]
 
 
 def formula_value(text, values, p):
@@ -776,6 +813,8 @@ def explicit(pair, e):
     root, is not repeated.
     """
     p, plain = prime_of(pair.label), Counter()
+    if e["domain"] not in ("positive", "real"):
+        return result(False, "another domain")
     for k, (left_given, where, values, root) in enumerate(e["formulas"]):
         given, other = pair[:2] if left_given else pair[1::-1]
         label = f"{pair.label} formula {k}"
@@ -850,7 +889,8 @@ def witnesses(pair, e):
         set(m) for m in (given.names, other.names, without)
     ]:
         return result(False, "points of other parameters")
-    if e["domain"] != "positive" or min(*x.values(), *y.values()) <= 0:
+    lowest = min(*x.values(), *y.values())
+    if e["domain"] not in ("positive", "real") or (e["domain"] == "positive" and lowest <= 0):
         return result(False, "a point that is not positive")
     off = misfit(given, tuple(x.items()), other, tuple(y.items()))
     if off > FITS:
@@ -952,11 +992,107 @@ def inequality(pair, e):
     return searched("form expanded; its signs are not seen by its terms")
 
 
+# parts that can replace each other (disting/guide/replacement.md)
+
+
+def in_series_or_parallel(n, c, z):
+    """(n, c, z) of F, of two kinds of elements, as that of 1/(x F), and back."""
+    return n + c + z - 1, 1 - z, 1 - c
+
+
+def items(part, way):
+    """(powers of single elements, {two powers: number of terms}, other parts) of a part that is
+    connected in this way, "series" or "parallel".
+    """
+    shape, *rest = part
+    if shape == "one":
+        return {rest[0]}, Counter(), []
+    if shape == "two":
+        a, b, *numbers = rest
+        n, c, z = numbers if way == "series" else in_series_or_parallel(*numbers)
+        return {power for power, on in ((a, c), (b, z)) if on}, Counter({(a, b): n}), []
+    if shape == way:
+        return set(rest[0]), Counter(dict(rest[1])), [*rest[2]]
+    return set(), Counter(), [part]
+
+
+def connected(way, parts):
+    """What a connection of parts can produce: ("one", power) for one kind of elements, ("two",
+    power, power, n, c, z) for two kinds, else what it consists of.
+    """
+    singles, terms, others = set(), Counter(), []
+    for part in parts:
+        one, two, rest = items(part, way)
+        singles, terms, others = singles | one, terms + two, others + rest
+    powers = sorted({*singles, *(x for two in terms for x in two)})
+    if len(powers) == 1 and not others:
+        return "one", powers[0]
+    if len(powers) == 2 and not others:
+        numbers = terms[tuple(powers)], *(int(x in singles) for x in powers)
+        return "two", *powers, *(numbers if way == "series" else in_series_or_parallel(*numbers))
+    return (
+        way,
+        tuple(sorted(singles)),
+        tuple(sorted(terms.items())),
+        tuple(sorted(others, key=repr)),
+    )
+
+
+def parts_of(m):
+    """{(node, node): part} when all parts in parallel or in series are connected."""
+    if m.fixed:
+        raise NotImplementedError("replacement of compartments")
+    ends, parts = {*m.force, *m.sensor}, {}
+
+    def put(a, b, part):
+        key = min(a, b), max(a, b)
+        parts[key] = connected("parallel", [parts[key], part]) if key in parts else part
+
+    for e in m.elements:
+        put(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power))
+    while True:
+        at = {}
+        for key in parts:
+            for x in key:
+                at.setdefault(x, []).append(key)
+        inner = next((x for x in sorted(at) if x not in ends and len(at[x]) <= 2), None)
+        if inner is None:
+            return parts
+        row = [parts.pop(key) for key in at[inner]]
+        if len(row) == 2:
+            put(*(x for key in at[inner] for x in key if x != inner), connected("series", row))
+
+
+@cache
+def normal_form(m):
+    """The parts and the ports, in the numbering that comes first: force and sensor may be
+    exchanged, and the signs of both reversed.
+    """
+    parts = parts_of(m)
+    nodes = sorted({*m.force, *m.sensor, *(x for key in parts for x in key)})
+    found = []
+    for numbers in permutations(range(len(nodes))):
+        to = dict(zip(nodes, numbers))
+        drawn = sorted((*sorted(to[x] for x in key), part) for key, part in parts.items())
+        ports = [tuple(to[x] for x in port) for port in (m.force, m.sensor)]
+        for pair in (ports, ports[::-1]):
+            found += [(pair, repr(drawn)), ([port[::-1] for port in pair], repr(drawn))]
+    return min(found)
+
+
+def replaceable(a, b):
+    """Whether two networks become the same when parts are labelled by what they can produce."""
+    return normal_form(a) == normal_form(b)
+
+
 def inner_of(pair, e):
     """Evidence on two networks that stand for these."""
     a, b = network(e["left"]), network(e["right"])
     inner = evidence(Pair(a, b, f"{pair.label} {e['left']} | {e['right']}", pair.scale), e["inner"])
     if inner.status == WRONG:
+        return inner
+    likes = e["kind"] == "replaced" and a.order == b.order and pair.left.order == pair.right.order
+    if likes and replaceable(pair.left, a) and replaceable(pair.right, b):
         return inner
     return searched("the networks that stand for these are not derived again")
 
@@ -980,10 +1116,36 @@ def of_part(pair, e):
 # theorems on chains: what they ask for, seen in the names
 
 
+def is_chain(m):
+    return m.text.startswith("chain ")
+
+
+SAME_BY = ("symmetry", "duality", "Foster", "Cauer")
+
+
 def indices(m):
     """(masses, gap, force, sensor, damped, the rest) of a chain's text."""
     n, gap, am, ap, mm, mp, damped, *rest = m.text.removeprefix("chain ").split(" ")
     return (*map(int, (n, gap, am, ap, mm, mp)), damped == "True", rest)
+
+
+def moved(m, symmetries):
+    """Indices and ground dampers of a chain after symmetries: exchange of force and sensor in one
+    of the rows, reflection of the free row.
+    """
+    n, gap, am, ap, mm, mp, damped, _ = indices(m)
+    at = [e.a for e in m.elements if e.kind == "b"]
+    for name in symmetries:
+        if name == "reciprocity of the free part":
+            ap, mp = mp, ap
+        elif name == "reciprocity of the grounded part":
+            am, mm = mm, am
+        elif name == "reflection of the free part":
+            ap, mp = (n + gap + 1 - i for i in (ap, mp))
+            at = [n + gap + 1 - i if i > gap else i for i in at]
+        else:
+            raise ValueError(f"no symmetry: {name}")
+    return n, gap, am, ap, mm, mp, damped, sorted(at)
 
 
 def row_key(n, wall, a, b):
@@ -1014,12 +1176,23 @@ def is_foster(m):
     return not indices(m)[6] and all(row[2] == row[3] for row in rows_of(m).values())
 
 
+def is_cauer(m):
+    """Foster's, with one long row, driven at an end."""
+    rows = rows_of(m)
+    row = rows.get("grounded", rows["free"])
+    if "grounded" in rows and rows["free"][0] != 1:
+        return False
+    return is_foster(m) and row[2] in (1, row[0])
+
+
 def theorem(pair, e):
     """Whether the theorem's premises hold for two chains; those of networks are not derived."""
     a, b, name = pair.left, pair.right, e["name"]
-    are_chains = all(m.text.startswith("chain") for m in (a, b))
+    are_chains = is_chain(a) and is_chain(b)
+    if name == "replacement" and a.order == b.order and not are_chains and replaceable(a, b):
+        return Result(CHECKED, "parts that can replace each other")
     plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
-    if not plain or name not in ("symmetry", "duality", "Foster", "Cauer"):
+    if not plain or name not in SAME_BY:
         return searched(f"theorem {name}: its premises are not derived again")
     same_size = indices(a)[0] == indices(b)[0] and indices(a)[6] == indices(b)[6]
     return result(same_size and same_by(a, b, name), f"premises of {name}")
@@ -1031,7 +1204,8 @@ def same_by(a, b, name):
         return rows_of(a) == rows_of(b)
     if name == "duality":
         return is_dual(a, b) or is_dual(b, a)
-    return is_foster(a) and is_foster(b)
+    one = is_cauer(a) and is_cauer(b)
+    return is_foster(a) and is_foster(b) and one == (name == "Cauer")
 
 
 def by_search(pair, e):
@@ -1042,18 +1216,21 @@ def by_search(pair, e):
 
 
 LIMITS = ("full-image", "limit", "meeting", "limit-fibre")
+INSIDE = ("parts-inside", "fibre")  # of the side that is given
 NO_LIMIT = ("counts", "larger-projection", "too-large", "relative-degrees", "outside")
 NO_LIMIT += ("pole-sharing", "refuted")
+WAYS = {True: "right-in-left", False: "left-in-right", None: ""}
 
 
 def relation_of_inclusion(pair, e, found):
     """Evidence that speaks for a limit names the larger side; what `inclusion` says must fit."""
-    side = {True: "left", False: "right"}.get(e.get("left_is_larger", e.get("left_is_part")))
-    if e["kind"] in LIMITS:
-        return found == ("right-in-left" if side == "left" else "left-in-right")
-    if e["kind"] in NO_LIMIT:
+    kind = e["kind"]
+    if kind in LIMITS:
+        return found == WAYS[e["left_is_larger"]]
+    if kind in NO_LIMIT:
         return found == "neither"
-    return True
+    inside = WAYS[not e["left_given"]]
+    return found == inside or (kind in ("fibre", "by-parts") and found == "neither")
 
 
 def full_image(pair, e):
@@ -1072,6 +1249,8 @@ def full_image(pair, e):
 def larger_projection(pair, e):
     """Coefficients with a larger rank in the model of the smaller rank."""
     a, b = sides(pair)
+    if not {*e["rows"]} <= {*a.labels, *b.labels}:
+        return result(False, "coefficients that are none")
     found = a.rank(e["rows"]), b.rank(e["rows"])
     right = (
         found == (e["left"], e["right"]) and (found[0] - found[1]) * (a.full_rank - b.full_rank) < 0
@@ -1145,6 +1324,12 @@ def step_row(row, element_, limit):
     return None
 
 
+def is_proper(n, gap, am, ap, mm, mp):
+    """Whether ports are in the rows to which they belong."""
+    below = range(1, gap + 1) if gap else (0,)
+    return 0 <= gap < n and {am, mm} <= {*below} and {ap, mp} <= {*range(gap + 1, n + 1)}
+
+
 def limit(pair, e):
     """Joints of the larger chain's rows that vanish or become rigid, one by one; a row that is not
     named comes to rest. With a count in addition the last step is not repeated.
@@ -1154,7 +1339,7 @@ def limit(pair, e):
         if shape:
             n, *rest = shape
             other = chain(n, *rest, indices(own)[6])
-            is_same = any(same_by(own, other, x) for x in ("symmetry", "duality", "Foster"))
+            is_same = is_proper(n, *rest) and any(same_by(own, other, x) for x in SAME_BY)
             if n != indices(own)[0] or not is_same:
                 return result(False, "a chain that is not the same")
             larger, smaller = (other, smaller) if own is larger else (larger, other)
@@ -1208,7 +1393,12 @@ class Table:
     """Results by file kind, place of the record and evidence, with the first reasons."""
 
     def __init__(self):
-        self.counts, self.wrong = {}, []
+        self.counts, self.wrong, self.folder = {}, [], Path(__file__).parent
+
+    def beside(self, name):
+        """Lines of another file of the folder; none if it is not there."""
+        path = self.folder / name
+        return path.read_text(encoding="utf-8").splitlines() if path.exists() else []
 
     def add(self, kind, place, what, found, where, times_=1):
         row = self.counts.setdefault((kind, place, what, found.why), Counter())
@@ -1277,41 +1467,127 @@ def chain_record(table, kind, where, r, m):
     table.add(kind, "model", "identifiability", found, where)
 
 
-RULES = {"counts": "12", "forms": "3", "ranks": "45", "renaming": "6", "free-choice": "7"}
-RULES |= {"embedding": "8", "supermodel": "9"}
+# what a record says beside its evidence: the kinds of evidence that allow it
+
+RULES = {"renaming": "6", "free-choice": "7", "embedding": "8", "supermodel": "9", "forms": "3"}
+CERTAINTY = {
+    **dict.fromkeys(("counts", "free-choice", "explicit", "inequality", "limit"), "proven"),
+    **dict.fromkeys(("meeting", "parts-inside", "points", "relative-degrees"), "proven"),
+    **dict.fromkeys(("witnesses", "of-part", "replaced", "at-inverse"), "proven"),
+    **dict.fromkeys(("no equivalent", "real witnesses"), "proven"),
+    **dict.fromkeys(("embedding", "ranks", "solved", "shared", "refuted"), "bounded"),
+    **dict.fromkeys(("full-image", "larger-projection", "limit-fibre", "too-large"), "bounded"),
+    **dict.fromkeys(("theorem", "interlacing", "real factors"), "theorem"),
+    **dict.fromkeys(("by-parts", "forms", "outside", "pole-sharing"), "proven bounded"),
+    **dict.fromkeys(("excluded", "renaming"), "proven theorem"),
+    "fibre": "bounded",
+}
+SHARES = {"excluded": "never", "theorem": "always", "points": "sometimes"}
+SHARES |= {"interlacing": "always sometimes"}
+PLACES = {"tf": "tf", "markov": "markov", "structure": "structure", "fibre": "fibre"}
+PLACES |= {"embedding": "structure", "solved": "fibre"}
+
+
+BITS = 192  # the program's bounds rest on at most three points modulo primes of 64 bits
+
+
+def is_certain(word, bits, e):
+    """Whether evidence has such a certainty; bits of a bound stand with bounds."""
+    right = word in CERTAINTY[e["kind"]].split() and type(bits) is int
+    if e["kind"] == "renaming":  # by a symmetry that is named, or by a search for one
+        right = right and (word == "theorem") == bool(e["symmetries"])
+    return right and (0 < bits <= BITS if word == "bounded" else bits == 0)
+
+
+def condition(e):
+    """The number of the condition that evidence stands for, or "exact"."""
+    if e["kind"] == "counts":
+        return "1" if sum(e["left"]) != sum(e["right"]) else "2"
+    if e["kind"] == "ranks":
+        return "4" if e["all_rows"] else "5"
+    return RULES.get(e["kind"], "exact")
+
+
+def decided(slot, told, e):
+    """Whether the condition that is named is that of the evidence, and where it was seen."""
+    rule, place = told["decided_by"], told.get("representation")
+    if slot in ("positive", "real"):
+        return rule == "admissible" and place in (None, "parameters")
+    return place in (None, PLACES.get(e["kind"], "tf")) and rule == condition(e)
+
+
+FIELDS = {
+    **dict.fromkeys(("tf", "markov", "structure"), "decided_by"),
+    **dict.fromkeys(("fibre", "real"), "decided_by relation"),
+    **dict.fromkeys(("complex", "positive"), "decided_by relation representation"),
+    **dict.fromkeys(("left_positive", "right_positive"), "share"),
+    **dict.fromkeys(("closure", "image"), "inclusion reason"),
+}
+
+
+def unfounded(slot, told, e, pair):
+    """What a verdict says that its evidence does not show; "" if nothing."""
+    kind = e["kind"]
+    fields = {*FIELDS[slot].split(), "certainty", "safety", "evidence"}
+    if not fields <= told.keys() <= fields | {"empirical"}:
+        return "fields are missing or unknown"
+    if not is_certain(told["certainty"], told["safety"], e):
+        return "a certainty that its evidence does not give"
+    if told.get("reason"):
+        return "a reason for what is not open"
+    if "decided_by" in told and not decided(slot, told, e):
+        return "another condition than its evidence"
+    if "share" in told:
+        fits = told["share"] in SHARES[kind].split()
+        return "" if fits else "a share that its evidence does not show"
+    if "inclusion" in told:
+        fits = relation_of_inclusion(pair, e, told["inclusion"])
+        return "" if fits else "an inclusion that its evidence does not show"
+    relation = told.get("relation", SHOWS.get(kind))
+    if relation not in SHOWN.get(kind, (SHOWS.get(kind, SAME),)):
+        return "a relation that its evidence does not show"
+    if relation == SAME and len({x.full_rank for x in sides(pair)}) > 1:
+        return "the same, with unequal ranks"
+    return ""
+
+
+SHOWN = {"fibre": (DISTINGUISHABLE, SAME), "real factors": (SAME,), "real witnesses": (SOMETIMES,)}
+
+
+def claim(table, kind, slot, told, pair, where):
+    """A verdict and its evidence; returns the relation that it gives."""
+    if e := told.get("evidence"):
+        found = evidence(pair, e)
+        try:
+            why = "" if found.status == WRONG else unfounded(slot, told, e, pair)
+        except UNREADABLE as reason:
+            why = f"cannot be read: {unreadable(reason)}"[:90]
+        table.add(kind, slot, e["kind"], Result(WRONG, why) if why else found, where)
+        return told.get("relation", SHOWS.get(e["kind"], ""))
+    right = told.get("relation", told.get("inclusion")) in ("undecided", "unknown")
+    if not right or told["certainty"] or told["safety"] != 0 or not told.get("reason", "-"):
+        expect(table, kind, slot, "none", False, where, "a verdict without evidence")
+    return "undecided"
+
+
+CHAIN_SLOTS = {"tf", "markov", "structure", "fibre"}
+DOMAINS = {"left_positive", "right_positive", "real"}
 
 
 def chain_pair(table, kind, where, r, pair, verdicts):
     """All evidence of one pair of chains."""
-    shown = set()
-    for slot in {"tf", "markov", "structure", "fibre"} & r.keys():
-        e = (told := r[slot])["evidence"]
-        found = evidence(pair, e)
-        relation = told.get("relation", SHOWS.get(e["kind"], SHOWS.get(slot, "")))
-        rules = RULES.get(e["kind"])
-        if rules and told["decided_by"] not in {*rules}:
-            found = Result(WRONG, "another condition than its evidence")
-        if (e["kind"] in SHOWS and relation != SHOWS[e["kind"]]) or (
-            e["kind"] == "theorem" and relation != SAME
-        ):
-            found = Result(WRONG, "a relation that its evidence does not show")
-        if relation == SAME and len({x.full_rank for x in sides(pair)}) > 1:
-            found = Result(WRONG, "the same, with unequal ranks")
-        shown.add(relation)
-        table.add(kind, slot, e["kind"], found, where)
+    if unknown := r.keys() - CHAIN_SLOTS - DOMAINS - {"left", "right", "inclusions"}:
+        expect(table, kind, "pair", "known", False, where, f"unknown: {sorted(unknown)}")
+    shown = {claim(table, kind, slot, r[slot], pair, where) for slot in CHAIN_SLOTS & r.keys()}
     if len(shown) > 1:
         expect(table, kind, "pair", "one answer", False, where, "two answers")
     verdicts[r["left"], r["right"]] = next(iter(shown), "undecided")
-    for slot in ("left_positive", "right_positive", "real"):
-        if slot in r and (e := r[slot].get("evidence")):
-            table.add(kind, slot, e["kind"], evidence(pair, e), where)
-    for side in ("closure", "image"):
-        told = r.get("inclusions", {}).get(side, {})
-        if e := told.get("evidence"):
-            found = evidence(pair, e)
-            if side == "closure" and not relation_of_inclusion(pair, e, told["inclusion"]):
-                found = Result(WRONG, "an inclusion that its evidence does not show")
-            table.add(kind, side, e["kind"], found, where)
+    for slot in DOMAINS & r.keys():
+        claim(table, kind, slot, r[slot], pair, where)
+    for side, told in r.get("inclusions", {}).items():
+        if side not in ("closure", "image"):
+            expect(table, kind, "pair", "known", False, where, f"unknown: {side}")
+        claim(table, kind, side, told, pair, where)
 
 
 def chains_file(table, name, lines):
@@ -1369,33 +1645,192 @@ def apart(a, b):
     return a.full_rank != b.full_rank or a.varying != b.varying or a.constants != b.constants
 
 
-def dampers_file(table, name, lines):
-    """dampers-*: for each chain and set of dampers to the ground rank, room and class."""
+Damped = namedtuple("Damped", "x base dampers form columns group renamed free")
+"""A model of dampers-*: its profile, the chain without ground dampers, what symmetry leaves of it,
+and what is stored.
+"""
+
+
+def form_of(m):
+    """A chain up to exchange of force and sensor in a row and mirroring of the free row."""
+    n, gap, am, ap, mm, mp, damped, _ = indices(m)
+    at = sorted(e.a for e in m.elements if e.kind == "b")
+    size = n - gap
+    ports, free = sorted((ap - gap, mp - gap)), [i - gap for i in at if i > gap]
+    mirrored = [sorted(size + 1 - i for i in x) for x in (ports, free)]
+    grounded = sorted((am, mm)), [i for i in at if i <= gap]
+    return size, gap, damped, *grounded, min([ports, free], mirrored)
+
+
+def damped_models(table, name, lines):
+    """All chains of a size, each with all sets of dampers to the ground."""
     n, damped = int(name.split("-")[1]), "undamped" not in name
-    every = enumerated(n, damped)
-    groups = {}
+    every, sets, out = list(enumerated(n, damped)), sets_of(n), []
+    stored = ("columns", "group", "renamed", "free", "rank")
+    right = [r["model"] for r in lines[1:]] == list(range(1, len(every) + 1))
+    right = right and all(len(r[key]) == len(sets) for r in lines[1:] for key in stored)
+    expect(table, "dampers", "file", "all models, sets", right, name)
     for r, m in zip(lines[1:], every):
-        for k, dampers in enumerate(sets_of(n)):
-            i = indices(m)
-            x = profile(chain(*i[:6], damped, dampers))
+        for dampers, *told, rank in zip(sets, *(r[key] for key in stored)):
+            own = chain(*indices(m)[:6], damped, dampers)
+            x = profile(own)
             where = f"{name} {r['model']} {dampers}"
-            expect(table, "dampers", "model", "rank", x.full_rank == r["rank"][k], where)
-            groups.setdefault(r["group"][k], []).append(x)
-    for number_, members in groups.items():
-        first = members[0]
-        for x in members[1:]:
-            found = (
-                Result(WRONG, "told apart by degrees or ranks")
-                if apart(first, x)
-                else searched("same class: found by search, degrees and ranks agree")
-            )
+            expect(table, "dampers", "model", "rank", x.full_rank == rank, where)
+            out.append(Damped(x, m.text, dampers, repr(form_of(own)), *told))
+    return out
+
+
+def links(table, models):
+    """Yield pairs of models, by place, that are the same for a reason seen here: one form; free
+    choice of all coefficients; one damper more and the same rank; a settled pair that is checked.
+    """
+    first, place = {}, {(m.base, m.dampers): i for i, m in enumerate(models)}
+    for i, m in enumerate(models):
+        yield first.setdefault(m.form, i), i
+        if m.x.full_rank == len(m.x.varying):
+            yield first.setdefault(repr(coarse(m.x)), i), i
+        for other in range(1, m.x.model.nodes + 1):
+            j = place.get((m.base, tuple(sorted({*m.dampers, other}))), i)
+            if models[j].x.full_rank == m.x.full_rank:
+                yield i, j
+    for line in table.beside("settled-dampers.jsonl"):
+        r = json.loads(line)
+        ends = [first.get(repr(form_of(chain_text(r[side])))) for side in ("left", "right")]
+        known = r["finding"][1] == "holds" and None not in ends
+        if known and settled(json.dumps(r))[1].status == CHECKED:
+            yield ends[0], ends[1]
+
+
+ALL = ("H", "1/G", "G")
+
+
+def told_apart(a, b, kinds):
+    """Whether degrees, ranks, constants or dependences of these kinds tell two models apart."""
+    return apart(a, b) or any(a.dependent(kind) != b.dependent(kind) for kind in kinds)
+
+
+def same_classes(table, name, models):
+    """Models of one class are the same, and what is the same is one class."""
+    of = classes(links(table, models))
+    members, numbers = {}, {}
+    for i, m in enumerate(models):
+        members.setdefault(m.group, []).append(i)
+        numbers.setdefault(of[i], set()).add(m.group)
+    one = all(len(groups) == 1 for groups in numbers.values())
+    expect(table, "dampers", "classes", "none is two", one, name)
+    for number_, places_ in members.items():
+        first = models[places_[0]]
+        for i in places_[1:]:
+            m = models[i]
+            linked = of[i] == of[places_[0]]
+            if m.columns != first.columns or told_apart(first.x, m.x, () if linked else ALL):
+                found = Result(WRONG, "told apart by degrees, ranks or columns")
+            elif linked:
+                found = Result(CHECKED, "linked")
+            else:
+                found = searched("same class: degrees, ranks and dependences agree")
             table.add("dampers", "class", "indistinguishable", found, f"{name} class {number_}")
-    firsts = [members[0] for members in groups.values()]
-    keys = Counter((tuple(x.degrees), x.full_rank, frozenset(x.varying)) for x in firsts)
-    close, whole = sum(c * (c - 1) // 2 for c in keys.values()), len(firsts)
+    reasons(table, name, models)
+
+
+def reasons(table, name, models):
+    """The numbers that say which condition joins two models of a class."""
+    renamed, free = {}, {}
+    for m in models:
+        first = renamed.setdefault(m.renamed, m)
+        if first is not m:
+            found = searched("a renaming that is no symmetry")
+            found = Result(CHECKED, "one form") if first.form == m.form else found
+            found = found if first.group == m.group else Result(WRONG, "of two classes")
+            table.add("dampers", "model", "renamed", found, name)
+        if m.free >= 0:
+            first = free.setdefault(m.free, m)
+            right = m.x.full_rank == len(m.x.varying) and coarse(m.x) == coarse(first.x)
+            expect(table, "dampers", "model", "free", right and first.group == m.group, name)
+
+
+def coarse(x):
+    """Degrees, rank, coefficients that vary and values of the others."""
+    return x.degrees, x.full_rank, sorted(x.varying), sorted(x.constants.items())
+
+
+def parted(buckets, key):
+    """Buckets split by a property of their members."""
+    out = []
+    for bucket in buckets:
+        parts = {}
+        for x in bucket:
+            parts.setdefault(key(x) if len(bucket) > 1 else 0, []).append(x)
+        out += parts.values()
+    return out
+
+
+def pairs_in(buckets):
+    return sum(len(b) * (len(b) - 1) // 2 for b in buckets)
+
+
+def varying_markov(x):
+    """Which coefficients of H in 1/s depend on parameters."""
+    rows = x.dependent("G")[0][1]
+    return tuple(map(any, zip(*rows)))
+
+
+INVARIANTS = (coarse, *(lambda x, kind=kind: x.dependent(kind) for kind in ALL))
+# what the columns of dampers-* are: conditions 1 to 5, 3 to 5 of G, and all of 1/G
+COLUMNS = (lambda x: sum(x.degrees), lambda x: x.degrees, lambda x: x.varying)
+COLUMNS += (lambda x: x.full_rank, INVARIANTS[1], varying_markov)
+COLUMNS += (lambda x: x.full_rank, INVARIANTS[3], INVARIANTS[2])
+
+
+def different_classes(table, name, head, models):
+    """Classes differ by degrees, ranks or by which functions depend on which."""
+    firsts = list({m.group: m for m in reversed(models)}.values())
+    groups = {m.group for m in firsts}
+    listed_ = {tuple(sorted(pair)) for pair in head["undecided"]}
+    right = all(a != b and {a, b} <= groups for a, b in listed_)
+    expect(table, "dampers", "file", "undecided pairs", right, name)
+    buckets = [[m.x for m in firsts]]
+    for key in INVARIANTS:
+        buckets = parted(buckets, lambda x, key=key: repr(key(x)))
+    close, whole = pairs_in(buckets), pairs_in([firsts])
     told = Result(CHECKED, "invariants"), searched("classes that invariants leave alike")
-    for found, many in zip(told, (whole * (whole - 1) // 2 - close, close)):
+    for found, many in zip(told, (whole - close, close - len(listed_))):
         table.add("dampers", "class", "distinguishable", found, name, many)
+    columns_of_classes(table, name, head, firsts)
+
+
+def columns_of_classes(table, name, head, firsts):
+    """Each column splits classes that those before it leave together, as its condition does."""
+    right = head["tests"] == [1, 2, 3, 4, 5, 3, 4, 5, 10]
+    right = right and all(len(m.columns) == len(COLUMNS) for m in firsts)
+    expect(table, "dampers", "file", "conditions", right, name)
+    buckets = [firsts]
+    for t, key in enumerate(COLUMNS):
+        true = shown = True
+        for bucket in buckets:
+            known = [m for m in bucket if m.columns[t] is not None] if len(bucket) > 1 else []
+            seen = {(m.columns[t], repr(key(m.x))) for m in known}
+            true = true and len({column for column, _ in seen}) == len(seen)
+            shown = shown and len({value_ for _, value_ in seen}) == len(seen)
+        found = Result(CHECKED, "split again") if shown else searched("split finer than here")
+        found = found if true and (shown or t not in range(4)) else Result(WRONG, "split otherwise")
+        table.add("dampers", "column", f"{t}", found, name)
+        buckets = parted(buckets, lambda m, t=t: repr(m.columns[t]))
+
+
+def dampers_file(table, name, lines):
+    """dampers-*: a line a chain, lists by sets of dampers to the ground."""
+    models = damped_models(table, name, lines)
+    same_classes(table, name, models)
+    different_classes(table, name, lines[0], models)
+
+
+@cache
+def settled(line):
+    """(pair, result) of one line of settled-dampers."""
+    r = json.loads(line)
+    pair = pair_of(chain_text(r["left"]), chain_text(r["right"]))
+    return pair, evidence(pair, r["finding"][4])
 
 
 def chain_text(text):
@@ -1419,23 +1854,30 @@ def of_verdict(table, kind, place, part, pair, where):
         table.add(kind, place, e["kind"], found, where)
 
 
-def finding(table, kind, where, told, pair):
+def finding(table, kind, where, told, pair, found=None):
     """[format, word, certainty, safety, evidence or null, reason]."""
-    if e := told[4]:
-        found, core = evidence(pair, e), e
-        while "inner" in core:
-            core = core["inner"]
-        if told[1] != FINDING.get(SHOWS.get(core["kind"]), told[1]):
-            found = Result(WRONG, "a finding that its evidence does not show")
-        table.add(kind, "finding", e["kind"], found, where)
-    elif told[1] != "abandoned":
-        expect(table, kind, "finding", "none", False, where, "no evidence")
+    form, word, certainty, bits, e, reason = told
+    if not e:
+        right = (form, word, certainty, bits) == (10, "abandoned", "proven", 0)
+        if not right or not isinstance(reason, str) or not reason:
+            expect(table, kind, "finding", "none", False, where, "no evidence")
+        return
+    found, core = found or evidence(pair, e), e
+    while "inner" in core:
+        core = core["inner"]
+    if core.get("domain", "positive") != "positive":
+        found = Result(WRONG, "evidence over other values")
+    if form != 10 or reason != "" or word != FINDING.get(SHOWS.get(core["kind"])):
+        found = Result(WRONG, "a finding that its evidence does not show")
+    if not is_certain(certainty, bits, e) or not is_certain(certainty, bits, core):
+        found = Result(WRONG, "a certainty that its evidence does not give")
+    table.add(kind, "finding", e["kind"], found, where)
 
 
 def settled_file(table, name, lines):
     for k, r in enumerate(lines, 1):
-        pair = pair_of(chain_text(r["left"]), chain_text(r["right"]))
-        finding(table, "settled", f"{name}:{k}", r["finding"], pair)
+        pair, found = settled(json.dumps(r))
+        finding(table, "settled", f"{name}:{k}", r["finding"], pair, found)
 
 
 def network_record(table, kind, where, r):
@@ -1457,6 +1899,36 @@ def network_record(table, kind, where, r):
 SCALE = {"cells": 2}
 
 
+def network_pair(table, kind, where, r, pair):
+    """The verdicts of a pair, over complex and positive parameters, and the finding behind them."""
+    wanted = {"left", "right", "complex", "positive"}
+    wanted = {"left", "right", "as"} if "as" in r else wanted
+    if not wanted <= r.keys() <= {"left", "right", "complex", "positive", "finding", "as"}:
+        expect(table, kind, "pair", "known", False, where, "missing or unknown fields")
+    if "complex" in r:
+        claim(table, kind, "complex", r["complex"], pair, where)
+    if "finding" in r:
+        finding(table, kind, where, r["finding"], pair)
+    if "positive" in r:
+        over_positive(table, kind, where, r, pair)
+
+
+def over_positive(table, kind, where, r, pair):
+    """Evidence of its own, or the verdict that the finding gives."""
+    told = r["positive"]
+    if told.get("evidence"):
+        claim(table, kind, "positive", told, pair, where)
+        fits = r.get("finding", [10, "abandoned"])[1] in ("abandoned", FINDING[told["relation"]])
+        return expect(table, kind, "positive", "finding", fits, where, "the finding says otherwise")
+    given = r["finding"][1:4] if "finding" in r else ["abandoned", "proven", 0]
+    words = told["relation"], told["decided_by"], told["representation"]
+    fits = given[0] == FINDING.get(told["relation"]) and words[1:] == ("admissible", "parameters")
+    fits = fits and [told["certainty"], told["safety"]] == given[1:]
+    if given[0] == "abandoned":
+        fits = (*words, told["certainty"], told["safety"]) == ("undecided", "", "", "", 0)
+    return expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
+
+
 def networks_file(table, name, lines):
     """networks-*: a line a network with its class, then a line a pair of one class."""
     kind, models, groups, verdicts, told = name.split("-")[1], {}, {}, {}, {}
@@ -1468,18 +1940,16 @@ def networks_file(table, name, lines):
             groups[r["model"]] = r["group"]
             continue
         key = r["left"], r["right"]
-        pair = pair_of(models[key[0]], models[key[1]], scale)
+        if key in told:
+            expect(table, kind, "pair", "once", False, where, "a pair stands twice")
         told[key] = r
         if groups[key[0]] != groups[key[1]] or not groups[key[0]]:
             expect(table, kind, "pair", "class", False, where, "a pair of two classes")
-        for domain in ("complex", "positive"):
-            of_verdict(table, kind, domain, r.get(domain, {}), pair, where)
+        network_pair(table, kind, where, r, pair_of(models[key[0]], models[key[1]], scale))
         if "complex" in r:
             verdicts[key] = r["complex"]["relation"]
-        if "finding" in r:
-            finding(table, kind, where, r["finding"], pair)
-            fits = r["finding"][1] in (FINDING.get(r["positive"]["relation"]), "abandoned")
-            expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
+    different = len({m.text for m in models.values()}) == len(models) == lines[0]["models"]
+    expect(table, kind, "file", "all models", different, name)
     for key, r in told.items():
         if "as" in r:
             of = tuple(sorted(r["as"]))
@@ -1499,8 +1969,9 @@ def unlisted(table, kind, name, models, groups, verdicts, scale):
                 expect(table, kind, "pair", "class", False, where, "a pair of a class is missing")
         else:
             x, y = profile(models[a], scale), profile(models[b], scale)
-            told = Result(CHECKED, "invariants"), searched("degrees, ranks and constants agree")
-            table.add(kind, "unlisted", "", told[not apart(x, y)], where)
+            told = Result(CHECKED, "invariants"), searched("degrees, ranks, dependences agree")
+            differ = told_apart(x, y, ("H", "1/G") if not models[a].exponents else ())
+            table.add(kind, "unlisted", "", told[not differ], where)
 
 
 def candidates_file(table, name, lines):
@@ -1585,7 +2056,7 @@ FILES = {
 def check_file(table, path):
     """All records of one file; a file that cannot be read is wrong."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text, table.folder = path.read_text(encoding="utf-8"), path.parent
         if path.suffix == ".json":
             return verdict_file(table, path.name, json.loads(text))
         lines = [json.loads(line) for line in text.splitlines()]

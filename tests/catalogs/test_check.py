@@ -4,8 +4,12 @@ other names, a relation that does not hold, and what an engine with a fault woul
 
 import copy
 import json
+import os
+import re
+import shutil
 import subprocess
 import sys
+from importlib import resources
 from importlib.util import module_from_spec, spec_from_file_location
 
 import pytest
@@ -58,6 +62,26 @@ def test_what_is_shipped_is_accepted(check, tmp_path, name):
     table = table_of(check, tmp_path, name, records(name))
     assert not table.wrong
     assert sum(row[check.CHECKED] + row[check.SEARCH] for row in table.counts.values()) > 5
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("name", ["chains-3-damped", "dampers-3-undamped", "networks-cells-4"])
+def test_another_python_gives_the_same_table(name):
+    """Isolated or not, with the site's packages or not, with other hashes of texts."""
+    path = shipped_folder() / f"{name}.jsonl"
+    tables = [
+        subprocess.run(
+            [interpreter, *flags, str(PATH), str(path)],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=os.environ | {"PYTHONHASHSEED": seed},
+        ).stdout.rpartition("\nall")[0]
+        for interpreter in filter(None, (sys.executable, shutil.which("pypy3")))
+        for flags, seed in ((["-I", "-S"], "0"), ([], "1"), ([], "2"))
+    ]
+    assert len(tables[0].splitlines()) > 5
+    assert len(set(tables)) == 1
 
 
 @pytest.mark.slow
@@ -193,6 +217,29 @@ def test_witnesses_that_do_not_fit_are_refused(check):
         assert check.evidence(pair, e | lie).status == check.WRONG, lie
 
 
+@pytest.mark.parametrize(("left", "right", "same"), [
+    ("R1-p(R2,C1)", "p(R1,R2-C1)", True), ("R1-p(R2,C1)", "R1-p(C1,R2-C2)", False),
+    ("L1-R1-p(R2,C1)-p(R3,C2)", "L1-p(R1,R2-C1,R3-C2)", True),
+    ("1~2, 1~3; F1; S1", "1~2, 2~3; F1; S1", True), ("#~1, 1~2; F1; S1", "1~2; F1; S1", False),
+    ("1=2, 1=3; F1; S1", "1=2, 2=3; F1; S1", False), ("1~2, 2~3; F1; S3", "1~2, 2~3; F3; S1", True),
+    ("1~2, 2~3; F1; S2", "1~2, 2~3; F1; S3", False),
+])  # fmt: skip
+def test_parts_that_can_replace_each_other(check, left, right, same):
+    assert check.replaceable(check.network(left), check.network(right)) == same
+
+
+@pytest.mark.thin(1)
+@pytest.mark.parametrize("name", ["networks-circuits-4", "networks-machines-3"])
+def test_networks_that_differ_cannot_be_replaced(check, name):
+    """No pair that is told to differ for some positive values has one normal form."""
+    models = {r["model"]: check.network(r["network"]) for r in records(name) if "network" in r}
+    pairs = [r for r in records(name) if "positive" in r]
+    for r in pairs:
+        if r["positive"]["relation"] in ("distinguishable", "sometimes"):
+            assert not check.replaceable(models[r["left"]], models[r["right"]])
+    assert len(pairs) > 50
+
+
 @pytest.mark.parametrize("name", ["chains-2-undamped", "networks-compartments-2"])
 def test_evidence_of_another_pair_is_refused(check, name):
     """Names replaced by other names: each piece of evidence is put at a pair of other models."""
@@ -266,10 +313,90 @@ def test_lies_of_a_family_are_refused(check, tmp_path, what, lie):
     assert table_of(check, tmp_path, name, lie(records(name))).wrong, what
 
 
+def stored(key, *changes):
+    """Change entries of the first model's list: (place, value or the place that it is taken of)."""
+
+    def change(r):
+        for place, value in changes:
+            r[key][place] = r[key][value[0]] if isinstance(value, tuple) else value
+
+    return lambda lines: changed(lines, 1, change)
+
+
+def as_one_class(lines):
+    """Sets 1 and 2 of the first model told to be one class, with all that follows."""
+    lines = copy.deepcopy(lines)
+    old, new = lines[1]["group"][2], lines[1]["group"][1]
+    for r in lines[1:]:
+        for k, group in enumerate(r["group"]):
+            if group == old:
+                r["group"][k], r["columns"][k] = new, lines[1]["columns"][1]
+    return lines
+
+
+def alone(lines):
+    """A model of a class of several told to be a class of its own."""
+    lines = copy.deepcopy(lines)
+    of = lines[1]["group"] + lines[2]["group"]
+    number = next(g for g in of if of.count(g) > 1)
+    next(r for r in lines[1:] if number in r["group"])["group"][of.index(number) % 8] = 999
+    return lines
+
+
+DAMPERS = [
+    ("a rank", stored("rank", (1, 9))),
+    ("a class of its own", alone),
+    ("a member of another class", stored("group", (1, (2,)))),
+    ("two classes as one", as_one_class),
+    ("a column of another class", stored("columns", (1, (2,)))),
+    ("a column of a class that is not known", stored("columns", (1, [9] * 9))),
+    ("a renaming that is none", stored("renamed", (1, (2,)))),
+    ("a free choice that is none", stored("free", (0, 4))),
+    ("a list that is shorter", lambda lines: changed(lines, 1, lambda r: r["free"].pop())),
+    ("a model is missing", lambda lines: [lines[0], *lines[2:]]),
+    ("another condition", lambda lines: changed(lines, 0, lambda r: r["tests"].reverse())),
+    ("an open pair of one class", lambda lines: changed(
+        lines, 0, lambda r: r["undecided"].append([1, 1]))),
+]  # fmt: skip
+
+
+@pytest.mark.thin(1)
+@pytest.mark.parametrize(("what", "lie"), DAMPERS, ids=[what for what, _ in DAMPERS])
+def test_lies_of_classes_with_dampers_are_refused(check, tmp_path, what, lie):
+    assert table_of(check, tmp_path, "dampers-3-damped", lie(records("dampers-3-damped"))).wrong
+
+
+def test_classes_with_dampers_are_told_apart_by_dependences(check, tmp_path):
+    """Of 528 pairs of classes all but 17 differ by what depends on what."""
+    counts = table_of(check, tmp_path, "dampers-3-damped", records("dampers-3-damped")).counts
+    of = {why: row for (_, place, what, why), row in counts.items() if what == "distinguishable"}
+    assert of["invariants"][check.CHECKED] >= 511
+    assert sum(row[check.SEARCH] for row in of.values()) <= 17
+
+
+def test_formulas_over_real_values_are_no_finding_over_positive_ones(check):
+    pairs = pairs_of(check, "networks-cells-4")
+    pair, e = next((pair, e) for pair, _, e in pairs if e["kind"] == "explicit")
+    real = e | {"domain": "real"}
+    assert check.evidence(pair, real).status != check.WRONG
+    for evidence, wrong in ((e, False), (real, True)):
+        table = check.Table()
+        check.finding(table, "", "", [10, "holds", "proven", 0, evidence, ""], pair)
+        assert bool(table.wrong) == wrong
+
+
 def test_a_file_that_is_none_is_wrong(check, tmp_path):
     path = tmp_path / "chains-2-damped.jsonl"
     path.write_text("{}\nnone", encoding="utf-8")
     assert run(path).returncode == 1
+
+
+def test_the_guide_names_every_kind_of_evidence(check):
+    page = (resources.files("disting") / "guide" / "checking.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`([^`]+)`", page))
+    kinds = {*check.CHECKS, *check.CERTAINTY, *check.SHOWS}
+    assert len(kinds) > 30
+    assert kinds - named == set()
 
 
 @pytest.mark.full
