@@ -99,7 +99,7 @@ def serving(
     try:
         assert process.stdout is not None
         lines = [process.stdout.readline() for _ in range(3)]
-        found = re.search(r"open (\S+)", "".join(lines))
+        found = re.search(r"open (http\S+)", "".join(lines))
         assert found, lines
         yield Served(process, folder, found[1])
     finally:

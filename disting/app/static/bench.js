@@ -11,6 +11,13 @@ const KINDS = ["both", "spring", "damper"];
 const WORDS = { both: "spring and damper", spring: "spring", damper: "damper" };
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
+// A place that no mass covers, below or beside the wanted one.
+const freePlace = ([x, y], taken) => {
+  const isFree = ([a, b]) => taken.every(([c, d]) => Math.abs(a - c) >= SIZE + 8 || Math.abs(b - d) >= SIZE + 16);
+  const rows = [0, 1, 2].map((i) => 40 + ((y - 40 + 70 * i) % 210)), columns = [0, 1, 2, 3, 4, 5, 6].map((i) => 40 + ((x - 40 + 60 * i) % (WIDTH - 80)));
+  return columns.flatMap((a) => rows.map((b) => [a, b])).find(isFree) ?? [x, y];
+};
+
 // Columns by the distance from the force; what has a place keeps it.
 export const arrange = (parts, places) => {
   const near = (node) => parts.joints.flatMap(({ from, to }) => (from === node ? [to] : to === node ? [from] : [])).filter((i) => i !== GROUND);
@@ -27,7 +34,7 @@ export const arrange = (parts, places) => {
   for (const [node, column] of columns) {
     const row = rows.get(column) ?? 0;
     rows.set(column, row + 1);
-    found[node] = places[node] ?? [80 + (column * (WIDTH - 160)) / Math.max(2, count - 1), 90 + 80 * row];
+    found[node] = places[node] ?? freePlace([80 + (column * (WIDTH - 160)) / Math.max(2, count - 1), 90 + 80 * row], [...Object.values(found), ...Object.values(places)]);
   }
   return found;
 };

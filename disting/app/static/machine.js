@@ -88,7 +88,10 @@ export const start = async (root, call) => {
     if (!isCurrent()) return;
     const row = rows?.rows.find(({ others }) => others.some(({ relation }) => relation === "indistinguishable"));
     const same = (row?.others ?? []).filter(({ relation }) => relation === "indistinguishable").map(({ name }) => name).slice(0, MOST);
-    await showNext({ of, same, sensors: known && known.levels.some(({ level }) => level !== "global") ? sensors : [] }, isCurrent);
+    const isGlobal = known?.levels.every(({ level }) => level === "global");
+    const nothing = `${!known ? "Not known: whether all parameters can be determined was not decided." : isGlobal ? "Every parameter has one value." : "Not every parameter has one value; what would determine more is not searched for models of this kind."} ${
+      !rows ? "" : rows.rows.length ? "No listed model is known to be the same for all values." : "No catalogue lists this model: whether another one looks the same is not known."}`;
+    await showNext({ of, same, sensors: known && !isGlobal ? sensors : [], nothing }, isCurrent);
   };
   const showDetermined = (of) => (answer) => {
     const groups = Map.groupBy ? Map.groupBy(answer.levels, ({ level }) => level) : answer.levels.reduce((map, one) => map.set(one.level, [...(map.get(one.level) ?? []), one]), new Map());
@@ -115,10 +118,10 @@ export const start = async (root, call) => {
       picture(drawn), found,
       element("p", { class: "buttons" }, element("button", { type: "button", class: "plainbutton", onclick: () => askCompare(of, name) }, "Compare both"), " ", evidenceButton(call, pair)));
   };
-  const showNext = async ({ of, same, sensors }, isCurrent) => {
+  const showNext = async ({ of, same, sensors, nothing }, isCurrent) => {
     const apart = element("div", { class: "answer" }), more = element("div", {});
     next.replaceChildren(apart, more);
-    if (!same.length && !sensors.length) next.replaceChildren(element("p", {}, "Nothing more is needed: every parameter has one value, and no listed model is the same for all values."));
+    if (!same.length && !sensors.length) next.replaceChildren(element("p", {}, nothing));
     if (same.length)
       later(isCurrent, () => waitFor(apart, "What separates the models that look the same", call("separate", { text: of, others: same }), ({ sentence, least, command }) => [
         element("h3", {}, "To separate it from what looks the same"), element("p", {}, sentence), element("p", {}, `If it is this machine: ${least}.`), commandFold(command)], isCurrent));
