@@ -139,6 +139,20 @@ def test_a_machine_by_mouse(visit):
         wait_text(tab, "1=2*i, 1-#, 2~3-#; F1; S1")
 
 
+def test_masses_of_another_machine_cover_no_other_and_no_more_is_said_than_is_known(visit):
+    with visit("machine") as tab:
+        write(tab, "1=2; F1; S1")
+        write(tab, "1=3, 2=3*i; F1; S3 S2")
+        places = [
+            tuple(round(float(r.get_attribute(x)) / 10) for x in "xy")
+            for r in tab.locator(".bench .mass rect").all()
+        ]
+        assert len({*places}) == 3
+        tab.locator("#next", has_text="No catalogue lists this model").wait_for()
+        write(tab, "R1-R2-R3-C1-C2-C3")
+        tab.locator("#next", has_text="Not every parameter has one value").wait_for()
+
+
 def test_a_machine_by_touch(visit):
     with visit("machine", 390, has_touch=True) as tab:
         write(tab, "1=2; F1; S1")
