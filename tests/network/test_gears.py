@@ -156,3 +156,10 @@ def test_sets_that_do_not_give_the_function_do_not_come_first() -> None:
     found = alternatives(one, {"m1": 1, "m2": 2, "k12": 4}, two, plain=plain)
     assert str(found.equivalents[0]) == "k12 = 10, m1 = 5/2, m2 = 4/5"
     assert not any(x.values["m1"] == 2 for x in found.equivalents)
+
+
+@pytest.mark.parametrize("joint", ["1=#*i", "1~#*3", "1-#*i", "#-1*2"])
+def test_a_ratio_to_the_ground_is_refused(joint) -> None:
+    """A damper to the ground lost it without a word."""
+    with pytest.raises(InputError, match="two nodes other than the ground"):
+        network_of(f"{joint}, 1=2; F1; S1")

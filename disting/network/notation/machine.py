@@ -81,7 +81,7 @@ Joint = tuple[int, int, str, str]
 def _element(letter: str, joint: Joint) -> Element:
     a, b, sign, ratio = joint
     if sign == "-" and 0 in (a, b):
-        return Element(f"b{a or b}", "d", (a or b, 0))
+        return Element(f"b{a or b}", "d", (a or b, 0), ratio)
     nodes = (a, b) if a else (b, a)
     return Element(joint_name(letter, a, b), letter, nodes, ratio)
 
