@@ -59,7 +59,7 @@ def of_network(network: Network) -> Lookalikes | None:
 
     >>> found = of_network(network_of("p(R1,R2-C1)"))
     >>> [name for name, relation in found.others.items() if relation == "indistinguishable"]
-    ['R1-p(R2,C1)']
+    ['R1-p(R2,C1)', 'R1-p(R2,R3-C1)', 'p(R1,R2-p(R3,C1))']
     """
     for name in _families_for(network):
         family = _read(name)

@@ -10,7 +10,7 @@ import pytest
 from disting.cli.fit_data import data
 from disting.cli.run import parser
 from disting.fit.search.cost import Cost
-from disting.fit.search.joint import FurtherResponse, JointCost
+from disting.fit.search.joint import FurtherResponse, JointCost, with_dead_times
 from disting.fit.search.setup import Setup
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse, read
@@ -114,7 +114,7 @@ def test_experiments_say_what_is_locked_and_what_is_added(bench):
         *("--experiment", f"{bench['both']}:sensor=1:2,lock=last,column=Re load"),
         *("--experiment", f"{bench['locked']}:brake=1:0.3,spring=last:1/3,sensor=1"),
     )
-    load, locked, heavy, loaded, between, braked = found.further
+    load, locked, heavy, loaded, between, braked = with_dead_times(found.further, "own")
     inertias = (("2", 0.004), ("1", 0.001))
     assert load.setup == Setup("2", sign=-1, delay="Td2")
     assert locked.setup == Setup("1", locked=("2",), delay="Td3")

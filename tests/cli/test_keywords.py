@@ -85,6 +85,7 @@ TABLE: dict[str, tuple[dict[str, tuple[str, ...]], dict[str, str]]] = {
             "--ranks": "a column of the table; Identifiability.rank in Python",
         },
     ),
+    "app": ({}, {"--port": WORK, "--no-browser": WORK}),
     "dampers": ({"disting.dampers": ("--damped", "--sets", "--domain")}, {}),
     "draw": (
         {"disting.Family": ("--damped", "--quantity"), "disting.network_of": ("--notation",)},
