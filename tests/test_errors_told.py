@@ -271,6 +271,7 @@ def test_each_that_names_an_error_is_called_wrongly() -> None:
     assert called <= named and len(CALLS) == len(called) >= LEAST
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("name", "call", "error"), CALLS, ids=[name for name, _, _ in CALLS])
 def test_what_is_raised_is_what_is_told(
     name: str, call: Callable[[], object], error: type[Exception]

@@ -113,6 +113,7 @@ def shown() -> list[object]:
     ]
 
 
+@pytest.mark.full
 def test_every_object_is_one_short_line(shown):
     for one in shown:
         text = repr(one)

@@ -74,6 +74,7 @@ def test_files_say_quantity_and_those_of_version_0_3_are_read(tmp_path):
         read_models(path)
 
 
+@pytest.mark.full
 def test_select_takes_keywords_of_before():
     """Values too: what was a function of the lines is among the weights."""
     chain = Chain(1, damped=False)

@@ -64,6 +64,7 @@ any_order = st.permutations(range(4)).map(tuple)
 often = settings(max_examples=80, deadline=None)
 
 
+@pytest.mark.full
 @often
 @given(functions, any_order)
 def test_a_planted_renaming_is_among_all_that_are_found(left, planted):

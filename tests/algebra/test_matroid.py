@@ -119,6 +119,7 @@ def test_one_changed_row_changes_the_form_exactly_if_it_changes_the_bases(rows, 
     assert (form(rows, p) == form(other, p)) == (bases(rows, p) == bases(other, p))
 
 
+@pytest.mark.full
 @some
 @given(matrices, st.data())
 def test_other_coordinates_and_scaled_rows_have_the_same_form(rows, data):
@@ -174,6 +175,7 @@ def test_dependences_state_the_true_rank(rows, p):
         assert rank(rows, chosen, p) == bound
 
 
+@pytest.mark.full
 @many
 @given(matrices, matrices, primes)
 def test_dependences_fix_the_matroid(left, right, p):

@@ -58,6 +58,7 @@ CASES = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("num", "den", "factor"), CASES)
 def test_lowest_terms_and_their_derivatives(num, den, factor):
     q = found(num * factor, den * factor)

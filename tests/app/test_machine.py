@@ -65,6 +65,7 @@ def test_parts_of_a_machine_describe_it(text: str) -> None:
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("text", MACHINES)
 def test_what_can_be_determined_is_what_the_public_function_says(text: str) -> None:
     answer = determine({"text": text})
@@ -120,6 +121,7 @@ def _structures(draw: st.DrawFn) -> dict:
     }
 
 
+@pytest.mark.full
 @settings(deadline=None, max_examples=150)
 @given(st.composite(_structures)())
 def test_parts_are_the_same_after_text_and_back(parts: dict) -> None:
@@ -163,6 +165,7 @@ def test_bad_texts_get_a_short_error(text: str) -> None:
         assert 0 < len(str(trouble.value)) < 400
 
 
+@pytest.mark.full
 def test_what_looks_the_same_is_what_the_catalogue_says() -> None:
     (chains, machines) = find_alike({"text": "3:1"})["rows"]
     assert [x["name"] for x in chains["others"]] == ["3:11"]

@@ -21,6 +21,7 @@ PAIRS = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right"), PAIRS)
 def test_the_verdict_is_that_of_compare(left: str, right: str) -> None:
     answer, verdict = compare_two({"left": left, "right": right}), compare(left, right)
@@ -28,6 +29,7 @@ def test_the_verdict_is_that_of_compare(left: str, right: str) -> None:
     assert (answer["sentence"], answer["certainty"]) == (verdict.sentence, verdict.sure)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right"), PAIRS[:4])
 def test_the_command_to_copy_says_the_same(
     left: str, right: str, capsys: pytest.CaptureFixture[str]

@@ -72,7 +72,7 @@ def test_at_random_numbers(chain, seed):
     assert complex(found.subs(numbers).subs(S, s)) == pytest.approx(expected, rel=1e-9)
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(
     "chain",
     [
@@ -178,13 +178,13 @@ def assert_equal_samples(chain, representation, count):
     ).to_Matrix().tolist()
 
 
-@pytest.mark.thin(10)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("chain", THREE, ids=str)
 def test_three_mass_transfer_functions_are_the_oracle_s(chain):
     assert_equal_transfer_functions(chain)
 
 
-@pytest.mark.thin(6)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("chain", THREE, ids=str)
 def test_three_mass_samples_are_the_oracle_s(chain):
     assert_equal_samples(chain, Representation.TF, 0)
@@ -198,6 +198,7 @@ def test_any_transfer_function_is_the_oracle_s(chain):
     assert_equal_transfer_functions(chain)
 
 
+@pytest.mark.full
 @slower
 @given(chains(max_masses=3))
 def test_any_sample_is_the_oracle_s(chain):

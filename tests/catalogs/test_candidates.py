@@ -111,6 +111,7 @@ def test_the_fit_looks_up_and_does_not_compute(sensor):
     assert alternatives(replace(FIRST, quantity=sensor), family, Untouched(), {}) == ()
 
 
+@pytest.mark.full
 def test_other_candidates_are_computed():
     family = whole_family((2,))
     first = representatives(family, Engine(), {})

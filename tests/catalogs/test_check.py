@@ -360,7 +360,7 @@ DAMPERS = [
 ]  # fmt: skip
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("what", "lie"), DAMPERS, ids=[what for what, _ in DAMPERS])
 def test_lies_of_classes_with_dampers_are_refused(check, tmp_path, what, lie):
     assert table_of(check, tmp_path, "dampers-3-damped", lie(records("dampers-3-damped"))).wrong

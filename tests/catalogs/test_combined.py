@@ -19,6 +19,7 @@ def three(request):
     return request.param, combine((1, 2, 3), damped=request.param, engine=ENGINE)
 
 
+@pytest.mark.full
 def test_the_answers_in_catalogues_are_those_that_would_be_computed(three):
     """And with them nothing is asked about the pairs of one size."""
     damped, computed = three

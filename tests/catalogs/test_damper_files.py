@@ -105,7 +105,7 @@ def test_at_random_as_compare_says(n):
             )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), ALL)
 def test_what_the_exact_decision_settled_at_random_as_one_fibre_says(n, damped):
     """Pairs of one bucket, asked anew: distinguishable ones have an empty fibre, or a rank of
@@ -260,6 +260,7 @@ def forged(found):
         yield replace(found, evidence=replace(found.evidence, labels=found.evidence.labels[::-1]))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("kind", ["shared", "solved", "refuted"])
 def test_what_says_more_than_its_evidence_shows_does_not_hold(kind):
     found, *pair = one_of_each(settled(False))[kind]

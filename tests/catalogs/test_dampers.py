@@ -40,6 +40,7 @@ def test_sets_in_the_order_of_size_then_masses():
 
 
 # Printed: "the set of candidate models was chosen appropriately with distinguishable models only".
+@pytest.mark.full
 @pytest.mark.parametrize("n", [1, 2, 3, 4])
 def test_force_and_sensor_at_mass_1_every_two_sets_are_distinguishable(n):
     assert {relation for *_, relation, _ in table(1, DamperSets.ALL, n).rows()} == {APART}

@@ -19,6 +19,7 @@ def damaged(folder, source):
     path.write_bytes(content)
 
 
+@pytest.mark.full
 def test_a_damaged_file_is_named_with_a_remedy(tmp_path):
     shutil.copy(shipped_folder() / "provenance.json", tmp_path)
     source = random.Random(7)

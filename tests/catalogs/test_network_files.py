@@ -48,6 +48,7 @@ def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine()).wrong == ()
 
 
+@pytest.mark.full
 def test_a_verification_takes_over_what_a_brief_search_left_open():
     family = family_of("machines-3-damped")
     records = read(shipped_folder() / f"{name_of(family.name)}.jsonl")
@@ -58,6 +59,7 @@ def test_a_verification_takes_over_what_a_brief_search_left_open():
     assert recall_open(replace(family, in_brief=False), records, Engine()) == 0
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("reason", "late"), [("out of time (20 s)", 1), ("too large: a matrix of 9 entries", 0)]
 )
@@ -88,6 +90,7 @@ def test_a_theorem_stays_beside_what_a_search_found():
     assert {verdict["evidence"]["kind"] for verdict in renamed} == {"renaming"}
 
 
+@pytest.mark.full
 def test_a_theorem_is_the_evidence_of_what_is_called_one():
     """In lines of all files: where the search found something else, the theorem stands beside it."""
     found = [
@@ -102,6 +105,7 @@ def test_a_theorem_is_the_evidence_of_what_is_called_one():
         assert evidence["kind"] == "theorem", (r["left"], r["right"])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "name", [pytest.param("machines-2", marks=pytest.mark.slow), "compartments-2"]
 )
@@ -193,6 +197,7 @@ def test_what_pairs_have_from_others_is_true_of_them(searched):
         assert asking.confirms(left, right, evidence, r["positive"]["representation"])
 
 
+@pytest.mark.full
 def test_what_a_theorem_tells_is_written_beside_an_open_search():
     """Networks 17 and 28 of machines-3: interlacing tells that they are the same."""
     whole = family_of("machines-3")
@@ -273,6 +278,7 @@ def lied(record):
         yield "outcome", {"finding": [kept, other, certainty, safety, evidence, note]}
 
 
+@pytest.mark.full
 def test_a_lie_is_found(tmp_path):
     name = "compartments-2"
     family = family_of(name)
@@ -317,6 +323,7 @@ def test_digits_of_an_equivalent_are_checked_by_themselves(digits, told, tmp_pat
     assert bool(wrong) is told
 
 
+@pytest.mark.full
 def test_evidence_that_is_false_is_found_by_itself(tmp_path):
     name = "compartments-2"
     path = tmp_path / f"{name_of(name)}.jsonl"

@@ -84,6 +84,7 @@ def test_five_masses_are_looked_up():
     assert len(next_catalog(5, damped=False).group(1)) == 16
 
 
+@pytest.mark.full
 def test_a_pair_out_of_a_group_is_what_is_computed_of_the_pair():
     """In either order."""
     stored, family = next_catalog(3, damped=False), catalog(3, damped=False).family

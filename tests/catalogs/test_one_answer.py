@@ -84,7 +84,7 @@ def assert_one_answer(n, damped):
     assert by_page(shipped, "positive") == stored
 
 
-@pytest.mark.thin(3)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n", "damped"), SMALL[:4])
 def test_and_over_complex_ones(n, damped):
     shipped = catalog(n, damped=damped)

@@ -49,6 +49,7 @@ def test_every_pair_of_the_models_of_one_to_five_masses_is_there(
     assert len(found.records) == 1 + (117 * 116 - sum(k * (k - 1) for k in counts)) // 2
 
 
+@pytest.mark.full
 @DAMPINGS
 def test_small_sizes_are_as_computed_now(both: dict[bool, SizesCatalog], damped: bool) -> None:
     computed, found = combine((1, 2, 3), damped=damped), both[damped]
@@ -83,6 +84,7 @@ def test_large_sizes_are_as_compare_says(
         )
 
 
+@pytest.mark.full
 @DAMPINGS
 def test_what_is_open_is_open_of_four_in_five_damped_masses_only(
     both: dict[bool, SizesCatalog], damped: bool
@@ -121,7 +123,7 @@ def test_the_counts_of_one_to_four_masses(both: dict[bool, SizesCatalog], damped
     assert told.count(Inclusion.NEITHER) == 482 - inside
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @DAMPINGS
 def test_groups_are_those_of_each_size(both: dict[bool, SizesCatalog], damped: bool) -> None:
     found, view = both[damped], View.POSITIVE
@@ -160,6 +162,7 @@ def test_the_papers_views_and_other_models_are_refused(both: dict[bool, SizesCat
             both[False].relation(*wrong)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "changes",
     [{"left": "2:1"}, {"tf": {}}, {"tf": {"relation": "indistinguishable"}}, {"tf": None}],

@@ -39,6 +39,7 @@ def test_a_lag_is_always_distinguishable_from_none(n, damped):
     }
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
 def test_no_lagged_model_is_any_original_one(n, damped):
     found = originals_against_lagged(Family(n, damped), ENGINE)
@@ -48,6 +49,7 @@ def test_no_lagged_model_is_any_original_one(n, damped):
         assert set(found) == {(APART, "1")}
 
 
+@pytest.mark.full
 def test_lagged_against_original_damped_ones_by_condition():
     assert {
         n: {rule: k for (_, rule), k in originals_against_lagged(Family(n, True), ENGINE).items()}
@@ -118,6 +120,7 @@ def test_the_exact_decision_covers_lag_and_dead_time_on_both_sides(masses):
     assert Witness().confirms(verdict.evidence, verdict.representation, *pair)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n", "damped"),
     [
@@ -161,6 +164,7 @@ def test_with_ground_dampers_another_condition_may_decide_but_the_same():
     assert rules[(), (1,)] == ["3", "3", "1"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("n", [1, 2, 3, 4])
 def test_what_a_sensor_quantity_shifts(n, damped):

@@ -22,6 +22,7 @@ def command(reader, path):
     return [part.format(path) for part in READERS[reader]]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("reader", sorted(READERS.keys() - {"fit"}))
 def test_a_device_without_an_end_is_read_to_the_bound(tmp_path, reader):
     (tmp_path / "a.json").symlink_to("/dev/zero")

@@ -176,6 +176,7 @@ def test_the_list_of_commands_is_short_and_by_subject():
     assert all(sum(line.startswith(f"  {c.name} ") for line in lines) for c in COMMANDS)
 
 
+@pytest.mark.full
 def test_catalog_build_and_verify(tmp_path):
     assert called("catalog", "build", 2, "--out", tmp_path).returncode == 0
     good = called("catalog", "verify", 2, "--catalog", tmp_path)

@@ -65,6 +65,7 @@ def fitted(files):
     return done.stdout, path
 
 
+@pytest.mark.full
 def test_what_is_simulated_is_selected(files, fitted):
     _, path = fitted
     found = json.loads(path.read_text(encoding="utf-8"))

@@ -30,6 +30,7 @@ def test_every_command_for_users_has_one() -> None:
     assert [c.name for c in commands if not (isinstance(c, Command) and c.examples)] == ["fit"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("line", CHEAP)
 def test_an_example_works(
     line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -11,7 +11,7 @@ import pytest
 from tests.cli.process import COMMAND, called, heed_signals, marked
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("encoding", "command"),
     [

@@ -141,6 +141,7 @@ def interrupted(cache, stored, *arguments):
     return process.returncode, last
 
 
+@pytest.mark.full
 def test_interrupt_leaves_no_traceback(tmp_path):
     assert interrupted(tmp_path / "c.sqlite3", 1, "verdicts", "7", "--damped") == (130, INTERRUPTED)
 

@@ -115,6 +115,7 @@ def test_several_sensors_and_experiments_are_shown_one_after_the_other(two):
     assert [x["origin"] for x in every] == origins * 2
 
 
+@pytest.mark.full
 def test_each_sensor_has_its_page(two, tmp_path):
     out = tmp_path / "out"
     lines = called("look", two, "--sensor", "1,2", "--out", out).stdout.splitlines()

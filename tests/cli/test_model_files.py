@@ -32,6 +32,7 @@ def told(table):
     return {(r["left"], r["right"]): r["relation"] for r in table}
 
 
+@pytest.mark.full
 def test_verdicts_on_a_file_name_its_models(models):
     found = told(rows(called("verdicts", models, "--csv", "-").stdout))
     assert len(found) == 10
@@ -42,6 +43,7 @@ def test_verdicts_on_a_file_name_its_models(models):
     assert set(found.values()) == {APART}
 
 
+@pytest.mark.full
 def test_the_summary_tells_which_are_the_same_and_which_sometimes(models):
     lines = called("verdicts", models).stdout.splitlines()
     assert lines[0] == (
@@ -77,6 +79,7 @@ def test_conditions_and_json_are_those_of_chains(models, tmp_path):
     assert {v["domain"] for v in data["verdicts"]} == {View.EXACT.domain.value}
 
 
+@pytest.mark.full
 def test_a_warm_cache_gives_the_same_verdicts(models, tmp_path):
     cache = tmp_path / "cache.sqlite3"
     first = called("verdicts", models, "--json", "-", cache=cache).stdout

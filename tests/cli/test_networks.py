@@ -22,6 +22,7 @@ def responses(text):
     return omega, re + 1j * im
 
 
+@pytest.mark.full
 def test_an_impedance_is_simulated_and_fitted(tmp_path):
     path = tmp_path / "cell.csv"
     done = called("simulate", *CELL, "--low", "1", "--output-noise", "0.001", "--csv", path)
@@ -66,6 +67,7 @@ def test_all_sensors_are_simulated_and_fitted(tmp_path):
     assert f"{two} is the simplest that explains the data." in done.stdout
 
 
+@pytest.mark.full
 def test_networks_of_a_file_are_named_by_file_and_name(tmp_path):
     """In next, plan and simulate as in compare; what has no elements is refused."""
     path = tmp_path / "own.json"

@@ -37,6 +37,7 @@ def said(path):
     return done.stdout
 
 
+@pytest.mark.full
 def test_each_pair_has_a_sentence(said, path):
     first, empty, head, selected, *_ = said.splitlines()
     assert first == (
@@ -80,7 +81,7 @@ PLACES = [
 ]
 
 
-@pytest.mark.thin(4)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("command", ["next", "plan"])
 @pytest.mark.parametrize("way", PLACES, ids=str)
 def test_numbers_that_no_fit_writes_are_refused(path, tmp_path, way, command):

@@ -30,6 +30,7 @@ def written(tmp_path_factory):
     return called("plan", *PAIR, "--noise", 0.3, "--out", folder), folder
 
 
+@pytest.mark.full
 def test_answer_comes_first_with_what_is_needed(written):
     done, _ = written
     assert done.returncode == 0

@@ -148,6 +148,7 @@ def on_terminal(*words: str, stdout: bool, stderr: bool, **said: str) -> tuple[b
     return seen, (out or b"") + (error or b"")
 
 
+@pytest.mark.full
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of Unix")
 def test_relations_have_a_colour_on_a_terminal_alone() -> None:
     words = ("compare", "3:1", "3:4")
@@ -159,6 +160,7 @@ def test_relations_have_a_colour_on_a_terminal_alone() -> None:
     assert "\x1b" not in called(*words).stdout
 
 
+@pytest.mark.full
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a terminal of Unix")
 def test_a_terminal_is_shown_progress_where_output_is_piped() -> None:
     words = ("verdicts", "3", "--no-cache")
@@ -167,6 +169,7 @@ def test_a_terminal_is_shown_progress_where_output_is_piped() -> None:
     assert piped.decode() == called(*words).stdout
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("line", "offered"),
     [

@@ -66,6 +66,7 @@ def shares(verdict):
     )
 
 
+@pytest.mark.full
 def test_damped_chains_of_three_masses(small):
     """Which pairs are so for positive parameters always, sometimes and never; nothing else is
     asked.
@@ -83,6 +84,7 @@ def test_damped_chains_of_three_masses(small):
     assert set(over.values()) == {Relation.INDISTINGUISHABLE, Relation.DISTINGUISHABLE}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "small_model", "large_model"), [(3, 7, 6), (4, 20, 8)])
 def test_included_models_without_positive_equivalents(n, small_model, large_model):
     family = Family(n, damped=True)
@@ -93,6 +95,7 @@ def test_included_models_without_positive_equivalents(n, small_model, large_mode
     assert shares(compare(family[large_model], family[small_model])) == (None, "never")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "i", "j"), [(4, 2, 6), (5, 3, 8)])
 def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
     a, b = Family(n, damped=False)[i], Family(n, damped=False)[j]
@@ -109,6 +112,7 @@ def test_undamped_pairs_that_depend_on_the_parameters(n, i, j):
     assert Verdict.from_dict(v.to_dict()) == v and evidence_from(v.evidence.to_dict()) == v.evidence
 
 
+@pytest.mark.full
 @settings(max_examples=30, deadline=None)
 @given(
     st.sampled_from(PAIRS), st.booleans(), st.sampled_from((View.EXACT, View.POSITIVE, View.REAL))
@@ -270,6 +274,7 @@ def test_grades_add_up():
     assert weakest(bounded, (Certainty.NUMERICAL, 0)) == (Certainty.NUMERICAL, 0)
 
 
+@pytest.mark.full
 def test_over_real_parameters(small):
     """Rational maps; real factors both ways; an open set without real equivalents beside one
     with positive ones.
@@ -299,6 +304,7 @@ def test_the_page_says_which_positive_models_have_equivalents(small):
     assert "Every {L} with positive parameters has a positive equivalent {R}." in text
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n", "i", "j"), [(3, 1, 11), (4, 1, 5), (4, 5, 29)])
 def test_real_parameters_of_either_sign_have_real_equivalents(n, i, j):
     """Independent: the fibre in ball arithmetic at real points with negative elements."""

@@ -17,6 +17,7 @@ def test_chains_have_their_own_answer():
         assert isinstance(equivalents(model, given, to), Equivalents)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("model", [CELL, network_of(CELL), Model.from_network(network_of(CELL))])
 @pytest.mark.parametrize("to", [OTHER, network_of(OTHER), [OTHER, "R0-L1"]], ids=repr)
 def test_networks_are_objects_texts_or_a_list(model, to):

@@ -243,6 +243,7 @@ def test_the_original_is_always_among_its_own_equivalents(model):
             assert sorted(member.exact.values()) == sorted(values.values())
 
 
+@pytest.mark.full
 @settings(max_examples=40, deadline=None)
 @given(models(), st.data())
 def test_an_exact_equivalent_leads_back(model, data):

@@ -74,6 +74,7 @@ def test_circuits_one_of_each_group_is_kept():
     assert told["kept"][2]["same"] == [] and told["kept"][2]["next"] is None
 
 
+@pytest.mark.full
 def test_chains_machines_and_compartments():
     names = ["3:1", "3:11", "3:4"]
     found = gate(names)

@@ -106,6 +106,7 @@ def test_a_brake_keeps_what_has_all_responses(pair, i, j, same):
         assert agrees(given, values, other, member, further) is (member.text in kept)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("pair", "kind", "i", "j", "same"), CASES[::5])
 def test_what_is_kept_has_all_responses_and_what_is_not_has_not(pair, kind, i, j, same):
     check(pair, kind, i, j, same)

@@ -83,7 +83,7 @@ def test_all_ranks(chain, kind, i):
     check_ranks(chain, kind, i)
 
 
-@pytest.mark.thin(5)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("chain", "kind", "i"), TWO[::6])
 def test_whether_other_values_fit(chain, kind, i):
     check_values(chain, kind, i)

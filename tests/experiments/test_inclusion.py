@@ -57,6 +57,7 @@ def goes_over(part, whole, used):
 CHAINS = [with_dampers(), with_dampers(1), with_dampers(1, 2), with_dampers(damped=True)]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("used", [TWO, [AS_IT_IS, LOCKED], [SENSOR, INERTIA]])
 def test_a_part_is_a_limit_of_the_whole(used):
     for part, whole in permutations(CHAINS, 2):
@@ -120,6 +121,7 @@ def test_one_experiment_that_determines_more_excludes():
     assert seen
 
 
+@pytest.mark.full
 def test_what_holds_of_all_holds_of_each():
     """A limit in all experiments together is one in each, where that is known."""
     engine = Engine()
@@ -133,6 +135,7 @@ def test_what_holds_of_all_holds_of_each():
                 assert alone.closure not in excluded, (left, right, experiment)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("names", [("1:1", "2:2"), ("2:1", "3:2")])
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_rigid_spring_is_a_limit_under_experiments(names, damped):
@@ -158,6 +161,7 @@ def test_a_rigid_spring_is_a_limit_under_experiments(names, damped):
         assert not confirms_inclusion(Counts((0, 0), (0, 2)), *sides)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_lag_is_a_limit_under_experiments(damped):
     """T1 -> 0, for all chains of 2 and 3 masses."""
@@ -179,6 +183,7 @@ def test_known_sizes_of_one_body_add_up():
         assert (found is Inclusion.LEFT_IN_RIGHT) == inside and found is not Inclusion.NEITHER
 
 
+@pytest.mark.full
 def test_condition_8_under_experiments():
     """Equal rank and a part: the same behaviour, and so say the other conditions."""
     chain = Chain(3, act_plus=1, meas_plus=3, damped=False)

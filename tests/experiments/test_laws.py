@@ -157,6 +157,7 @@ def test_two_sensors_at_once_are_one_transfer_function(damped):
         assert ours == trial.relation.value
 
 
+@pytest.mark.full
 @settings(max_examples=8, deadline=None)
 @given(st.data())
 def test_fibres_by_groebner_bases_of_other_code(data):

@@ -51,6 +51,7 @@ def experiments(draw, nodes):
     )
 
 
+@pytest.mark.full
 @given(st.sampled_from(MACHINES), st.data())
 @settings(deadline=None, max_examples=6)
 def test_all_functions_against_a_matrix_that_is_written_out(text, data):
@@ -120,6 +121,7 @@ WAYS = (
 )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("way", WAYS, ids=str)
 @pytest.mark.parametrize("pair", [(1, 11), (2, 5), (9, 10)])
 def test_chains_are_told_what_they_are_told_as_chains(pair, way):

@@ -178,6 +178,7 @@ def test_the_same_whatever_the_order_and_some_of_them_only(engine):
     assert list(rows(some)) == list(rows(alone))
 
 
+@pytest.mark.full
 def test_a_battery_is_told_apart_at_an_inner_node(capsys):
     assert main(["next", *RANDLES]) == 0
     shown = capsys.readouterr().out

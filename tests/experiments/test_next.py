@@ -64,6 +64,7 @@ def test_any_second_sensor_settles_the_dual_pair(engine):
     }
 
 
+@pytest.mark.full
 def test_the_group_of_five_undamped(engine):
     group = (1, 4, 6, 8, 11)
     found = menu_for(named(Family(3, damped=False), *group), engine)
@@ -100,7 +101,7 @@ def test_tables_say_what_compare_says(kind, engine):
         assert found.tables[kind].look_up((0, i), (1, j))[0] is said.relation
 
 
-@pytest.mark.thin(8)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("number", "damped"), list(product(range(1, 12), (False, True))))
 def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
     """A structure against itself: the experiment at a place that gains nothing leaves as many
@@ -123,6 +124,7 @@ def test_the_force_moved_is_the_sensor_moved_where_both_are_at_one_place():
     assert measure_with(A[2], Item(FORCE, 2)) != measure_with(A[2], Item(SENSOR, 2))
 
 
+@pytest.mark.full
 def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
     """Sensor at 2 leaves mass 1 of the other, inertia at 2 leaves mass 2: together nothing is."""
     found = menu_for(named(A, 9, 10), engine)
@@ -267,7 +269,7 @@ def test_an_inertia_whose_effect_is_foretold_excludes_where_another_one_is(engin
         assert said.relation is Relation.DISTINGUISHABLE
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_what_is_said_of_any_mass_holds_of_every_mass(damped, engine):
     """Two structures whose effects are both foretold are alike there: no "any mass" then."""

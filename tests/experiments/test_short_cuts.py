@@ -54,7 +54,7 @@ def reflected(chain, values):
     return {name(p) if int(p[1]) > chain.gap else p: x for p, x in values.items()}
 
 
-@pytest.mark.thin(8)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("number", "kind"), list(product((2, 4, 5, 8, 9, 10), KINDS)))
 def test_the_standard_form_shows_the_same(number, kind):
     chain = U[number]
@@ -112,6 +112,7 @@ def test_rows_say_what_ideals_say(kind, i, j):
     assert not same_by_rows(pair[0], elsewhere)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("pair", "i", "j", "same"), INERTIAS)
 def test_an_inertia_in_the_coordinates_of_its_mass(pair, i, j, same):
     both = [

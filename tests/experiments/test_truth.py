@@ -43,6 +43,7 @@ def test_there_are_81_cases_of_which_19_remain():
     assert len(CASES) == 81 and sum(case[-1] for case in CASES) == 19
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("pair", "kind", "i", "j", "same"), CASES[::4])
 def test_truth(pair, kind, i, j, same):
     assert told(pair, kind, i, j, EXACT) == said(same)

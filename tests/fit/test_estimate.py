@@ -58,6 +58,7 @@ def test_known_parameters_are_found_again():
     assert found.parameters == pytest.approx(values, rel=1e-5)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("case", Case)
 def test_noise_is_fitted_at_least_as_well_as_by_the_truth(case):
     chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)

@@ -207,6 +207,7 @@ def test_noise_is_called_noise():
     assert "mostly noise" in first_lines(found)[1] and found.readings == ()
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_right_models_explain(seed):
     chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
@@ -293,6 +294,7 @@ def test_disturbed_lines_are_no_other_structure():
     assert systematic_share(residual + wave, ones) > 0.2
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("noise", [0.003, 0.01, 0.03])
 def test_scatter_from_neighbouring_lines_is_the_noise(noise):
     chain = Chain(3, damped=True, ground_dampers=(1,))

@@ -34,6 +34,7 @@ def found():
     return select(response(DRIVE, VALUES, OMEGA, NOISE, seed=4), [DRIVE])
 
 
+@pytest.mark.full
 def test_standard_errors_are_those_of_the_chain_rule_by_differences(found):
     candidate, task = found.described, found.task
     p = np.array([candidate.estimate.parameters[n] for n in DRIVE.parameters])
@@ -51,6 +52,7 @@ def test_standard_errors_are_those_of_the_chain_rule_by_differences(found):
         )
 
 
+@pytest.mark.full
 def test_nineteen_of_twenty_bands_hold_the_true_response():
     """Repeated experiments on the true structure, each fitted and judged as a selection does:
     95 % in the mean.
@@ -79,6 +81,7 @@ def test_nineteen_of_twenty_bands_hold_the_true_response():
     assert 0.92 < np.mean(inside) < 0.98
 
 
+@pytest.mark.full
 def test_the_response_is_sure_where_the_parameters_are_not():
     """Two masses with the sensor on the second one: no data determine all parameters, any the
     response.

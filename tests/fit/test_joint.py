@@ -380,6 +380,7 @@ MERGED = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("setup", "same"), MERGED)
 def test_mirrored_candidates_are_merged_where_every_response_is_mirrored(setup, same):
     """Force and sensor in the middle: a damper at either end is the same, until a response tells

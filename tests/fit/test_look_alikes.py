@@ -156,6 +156,7 @@ def all_dampers(masses, damped, number):
     ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("masses", [2, 3, pytest.param(4, marks=pytest.mark.slow)])
 def test_engine_confirms_what_is_said_of_the_elastic_base(masses, damped):
@@ -308,6 +309,7 @@ def test_base_within_the_scatter_is_found_and_no_other(grounded):
         assert error == pytest.approx(x.apart, rel=0.02)
 
 
+@pytest.mark.full
 def test_structure_line_tells_of_another_base_with_other_values(tmp_path):
     s = S[::3]
     drive = 1 / (1 / two_masses(1e-3, 2e-3, 300, 0.01)[::3] + 0.01 * s)
@@ -320,6 +322,7 @@ def test_structure_line_tells_of_another_base_with_other_values(tmp_path):
     assert "look-alike: 1 mass on an elastic base" in text
 
 
+@pytest.mark.full
 def test_structure_line_tells_of_a_base_within_the_scatter(tmp_path):
     drive = two_masses(1e-3, 2e-3, 300, 0.01) + 1 / (5e-3 * S**2 + 0.12 * S + 3500)
     text, plain = fitted(tmp_path, drive[::3], [Chain(3)], S[::3])
@@ -356,6 +359,7 @@ def test_friction_between_motor_and_base_is_a_term_in_s_of_the_inverse_response(
     assert at(BASE, ON_BASE) == pytest.approx(expected)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [True, False])
 def test_a_base_with_friction_is_fitted_once_where_a_chain_with_friction_is_the_same(damped):
     for n in (1, 2):
@@ -383,6 +387,7 @@ def test_look_alikes_on_a_base_have_the_friction_of_the_motor(chain):
         assert at(base, there) == pytest.approx(at(chain, values))
 
 
+@pytest.mark.full
 def test_the_other_values_of_a_base_with_friction_are_named():
     """Any of the two resonances may be that of the base."""
     found, unknown = twins(BASE, {n: ON_BASE[n] for n in BASE.parameters}, {})

@@ -29,6 +29,7 @@ def test_the_text_of_a_chain_is_that_chain(damped):
         assert each_once([read, machine]) == [read], machine.name
 
 
+@pytest.mark.full
 def test_a_tree_and_chains_compete_in_one_list(branched):
     """The tree is found, and the chain is listed that does not explain the data."""
     tree = "1=2, 1=3, 1-#; F1; S1"
@@ -39,6 +40,7 @@ def test_a_tree_and_chains_compete_in_one_list(branched):
     assert stands == {tree: True, "1=2=3; F1; S1": False}
 
 
+@pytest.mark.full
 def test_a_tree_that_is_never_told_from_a_chain_is_told_with_it(branched):
     words = ("--undamped", "--masses", "3", "--models", "1~2, 1~3; F1; S1", "1~3, 3~2; F1; S1")
     plain = json.loads(called("fit", branched, *words, "--json", "-").stdout)
@@ -58,6 +60,7 @@ def test_a_ground_damper_is_where_the_force_is():
     ]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("words", "reason"),
     [

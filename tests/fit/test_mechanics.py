@@ -161,6 +161,7 @@ def test_text_and_data_say_the_same(found):
     assert lines[2].startswith("next: measure again where others differ from 2:1+b1+delay: ")
 
 
+@pytest.mark.full
 def test_the_page_lists_the_same_lines_the_best_structure_first(found):
     listed = list_lines(list_structures(found, found.task.cost.measured, None))
     plain = selection_to_dict(found)["mechanics"]["lines"]
@@ -170,6 +171,7 @@ def test_the_page_lists_the_same_lines_the_best_structure_first(found):
     assert listed[0].adds == "dead time or lag"
 
 
+@pytest.mark.full
 def test_no_suspicion_is_lost_and_none_is_said_twice(found):
     text = "\n".join(fit_text(found, found.task.cost.measured))
     for sentence in suspicions(found):

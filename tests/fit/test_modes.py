@@ -61,6 +61,7 @@ def is_missed(chain: Chain, seed: int) -> bool:
     return estimates([chain], task)[chain].j > 1.001 * local.j
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("chain", KINDS, ids=str)
 def test_a_candidate_alone_finds_the_optimum_of_the_truth(chain):
     """No relative leads to it: neither an undamped resonance nor a base stops the search."""

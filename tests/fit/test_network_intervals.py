@@ -24,6 +24,7 @@ def measured(clean, seed, noise=1e-2):
     return FrequencyResponse(OMEGA, noisy, quantity="position", is_impedance=True)
 
 
+@pytest.mark.full
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """60 fits of 3 values: 0.95 * 180 = 171 +- 3 hits if they are independent."""
     truth = {"R0": 1.0, "R1": 2.0, "C1": 0.01}
@@ -34,6 +35,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
     assert 160 <= hits <= 178
 
 
+@pytest.mark.full
 def test_an_element_that_the_data_do_not_show_has_an_end_on_one_side():
     """A second capacitor where the data show one: small enough, it may be none."""
     network = network_of("p(R0,C0)-p(R1,C1)")
@@ -67,6 +69,7 @@ def test_an_element_that_has_vanished_comes_back_for_the_intervals():
     assert seen >= 2
 
 
+@pytest.mark.full
 def test_what_only_a_sum_determines_is_known_up_to_the_sum():
     """R0 - R2 - C1: each resistance may be anything up to the sum 3."""
     clean = 3 + 1 / (0.01j * OMEGA)
@@ -78,6 +81,7 @@ def test_what_only_a_sum_determines_is_known_up_to_the_sum():
     assert low < 0.01 < high < 1.02 * low
 
 
+@pytest.mark.full
 def test_twins_have_the_values_of_the_explicit_map():
     two = CLEAN + 0.5 / (1 + 0.001j * OMEGA)
     selection = fit_networks(measured(two, 3, 1e-3), list(map(network_of, (VOIGT, LADDER))))
@@ -93,6 +97,7 @@ def test_twins_have_the_values_of_the_explicit_map():
     assert twin.intervals["R0"] == pytest.approx(fit.intervals["R0"], rel=1e-5)
 
 
+@pytest.mark.full
 def test_a_twin_with_a_free_choice_is_told_as_such(tmp_path):
     write_csv(measured(CLEAN, 4), tmp_path / "cell.csv")
     done = called(
@@ -107,6 +112,7 @@ def test_a_twin_with_a_free_choice_is_told_as_such(tmp_path):
     assert plain["fits"][-1]["intervals"] == {}
 
 
+@pytest.mark.full
 def test_data_may_stand_behind_the_networks(tmp_path):
     """--models takes all words up to the next option; a file of data is none of them."""
     write_csv(measured(CLEAN, 5), tmp_path / "cell.csv")

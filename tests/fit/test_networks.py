@@ -203,6 +203,7 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
         assert (replace(found, fits=(first, other)).selected is first) == is_first
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "excluded"), [(-2.9, False), (-2.0, True), (0.0, True)])
 def test_a_network_that_fits_alike_in_another_place_excludes_none(left, excluded):
     """T is above 8, the cost lower by 0.6, 5 and 9."""
@@ -240,6 +241,7 @@ def test_an_exponent_is_found_and_a_capacitor_excluded():
     assert best.relative["n1"] == pytest.approx(2e-3, rel=2)
 
 
+@pytest.mark.full
 @needs_data
 def test_a_capacitor_is_a_constant_phase_element_of_exponent_one():
     """A dummy cell of resistors and a capacitor: 150 and 502 ohm, published."""
@@ -248,6 +250,7 @@ def test_a_capacitor_is_a_constant_phase_element_of_exponent_one():
     assert (fit.values["R0"], fit.values["R1"]) == pytest.approx((150, 502), rel=5e-3)
 
 
+@pytest.mark.full
 @needs_data
 @pytest.mark.parametrize(
     ("file", "published"),
@@ -275,6 +278,7 @@ def test_files_of_instruments(file, lines, first):
     assert len(found) == lines and found.G[0] == pytest.approx(first)
 
 
+@pytest.mark.full
 def test_the_command_takes_minus_im_and_tells_what_is_left(tmp_path):
     omega = np.logspace(0, 4, 60)
     cell = 1 + 2 / (1 + 0.02j * omega)

@@ -23,7 +23,7 @@ def test_the_response_is_that_of_the_matrix_equation(chain, seed):
     np.testing.assert_allclose(Plant(chain.structure, OMEGA[::20]).response(p), expected, rtol=1e-9)
 
 
-@pytest.mark.thin(3)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 @settings(max_examples=30)
 @given(seed=st.integers(0, 10**6))

@@ -53,6 +53,7 @@ def test_the_true_machine_lies_within_what_is_said(left):
         assert said[name].low - slack <= value <= said[name].high + slack, name
 
 
+@pytest.mark.full
 def test_twins_share_what_the_sensor_shows_and_not_masses_nor_loads(left):
     twins = left.members[0].twins
     said = {s.name: s for s in left.relied_on}

@@ -48,6 +48,7 @@ def test_what_only_rounding_makes_cheaper_does_not_come_first(selection):
     assert sorted([small, better], key=lambda c: c.order) == [better, small]
 
 
+@pytest.mark.full
 def test_the_planted_structure_is_selected(selection):
     found = selection.selected
     assert (
@@ -103,6 +104,7 @@ def test_the_json_reads_back_bit_equal(selection):
         model_from_dict({"n_masses": 2})
 
 
+@pytest.mark.full
 def test_the_same_seed_gives_the_same_bytes(selection):
     """All of it for fewer candidates; of the candidates of `selection`, what each fit found, in
     another company, which weighs the lines a little differently.

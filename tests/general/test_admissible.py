@@ -41,6 +41,7 @@ def over(view, left, right):
     return compare(left, right, query=Query(view=view))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.REAL, View.POSITIVE])
 @pytest.mark.parametrize(("left", "right"), PAIRS)
 def test_two_compartments_agree_for_some_rates_only(view, left, right):

@@ -312,6 +312,7 @@ MULTIPORTS = (
 RATIONAL = {"m1": 1, "m2": 2, "m3": 3, "m4": 1, "k12": 1, "k23": 5, "k34": 2}
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("given_text", "other_text", "count"), MULTIPORTS)
 def test_several_ports(given_text, other_text, count):
     """All positive sets: each gives every transfer function exactly."""

@@ -107,6 +107,7 @@ def drawn(source, depth):
     return f"({text}){kind}({other})", eval(f"x {kind} y", {"x": value, "y": second})
 
 
+@pytest.mark.full
 def test_random_expressions_have_the_value_that_python_computes():
     source, accepted = random.Random(5), 0
     for _ in range(300):

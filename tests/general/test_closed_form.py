@@ -155,6 +155,7 @@ def test_what_needs_more_than_square_roots_is_said():
         formulas(LADDER, VOIGT)
 
 
+@pytest.mark.full
 def test_what_can_be_shared_is_shared_equally():
     one, two = models(VOIGT, "R0-p(C1,R1-R4-p(C2,R2-p(C3,R3)))")
     (form,) = by_parts(one, two)

@@ -83,6 +83,7 @@ def test_a_sign_that_a_discriminant_shows():
     assert Orthant(3, 0, Domain.REAL).sign(a**2 - a * b + b**2) == 0
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("seed", range(40))
 def test_a_sign_is_that_of_all_values(seed):
     draw, ring = random.Random(seed), Orthant(3, 0, Domain.POSITIVE)

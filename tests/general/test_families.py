@@ -43,7 +43,7 @@ def decided(store, view, executor=None):
     return engine.decisions(subjects, Query(view), executor=executor)
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.EXACT, View.REAL, View.POSITIVE])
 def test_a_list_is_decided_as_its_pairs_are(view):
     with Store.open(":memory:") as store:

@@ -40,7 +40,7 @@ def test_equal_constants_of_rank_0_are_the_same(view):
     assert compare(left, right, query=Query(view)).relation is Relation.INDISTINGUISHABLE
 
 
-@pytest.mark.thin(4)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right", "expected"),
     [

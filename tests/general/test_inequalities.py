@@ -41,6 +41,7 @@ def some_values(model, draw):
     return {name: Fraction(draw.randint(1, 40), draw.randint(1, 40)) for name in model.parameters}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("text", [*SMALL, STAR, RING])
 def test_all_values_of_a_model_satisfy_its_own_inequalities(text):
     model, draw = model_of(text), random.Random(text)
@@ -125,6 +126,7 @@ def test_no_edge_lies_between_opposite_corners_of_a_square():
     assert {*module._edges(rows)} == {(1, 0, 0, 0, 0), (0, 1, 0, 0, 0), *corners}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("one", "two"), [(STAR, RING), ("#=1, 1=2, 2=3; F2:1; S3:2", "#=1, 1=2, 1=3, 2=3; F1; S2:1")]
 )

@@ -110,6 +110,7 @@ def levels(answers, names):
     return {name: by_letter[letter] for letter, name in pairs}
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("space", "answers", "names"), PUBLISHED.values(), ids=PUBLISHED)
 def test_published_answers(space, answers, names):
     found = identifiability(MatrixModel.from_state_space(*space), domain="complex")

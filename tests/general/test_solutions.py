@@ -38,6 +38,7 @@ def vectors(model):
     return solutions, values, symbols
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("model", "count", "unique"), MODELS)
 def test_numbers_against_sympy(model, count, unique):
     found = global_identifiability(model)

@@ -113,6 +113,7 @@ def test_equal_branches_are_unique_up_to_their_exchange():
     )
 
 
+@pytest.mark.full
 def test_a_number_that_depends_on_the_values():
     """R1-p(R2-L1,R3-C1) has one positive set at one point, and two at another one, by SymPy."""
     text = "R1-p(R2-L1,R3-C1)"
@@ -155,6 +156,7 @@ def test_three_equal_branches_have_six_orders():
     assert len(group) == 6 and len(generators_of(group)) == 2
 
 
+@pytest.mark.full
 def test_complex_answers_are_those_of_before():
     """Levels over complex parameters, from ideals, and those over positive ones are ordered."""
     order = [Level.GLOBAL, Level.EXCHANGES, Level.LOCAL, Level.NOT]
@@ -204,6 +206,7 @@ def test_an_exponent_is_exchanged_with_its_element():
     assert ("n1", "n2") in found.exchanges[0].moved
 
 
+@pytest.mark.full
 def test_plain_data_and_back():
     for text in (SIGNED, TWINS, "R1-p(R2-L1,R3-C1)", "3:2"):
         found = identifiability(text, damped=True if text == "3:2" else None, engine=ENGINE)

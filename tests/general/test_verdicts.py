@@ -92,6 +92,7 @@ def test_two_compartments_are_complex_indistinguishable_by_condition_7():
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.REAL, View.POSITIVE])
 def test_two_compartments_are_not_said_to_be_the_same_over_the_reals(view):
     assert compare(IRREVERSIBLE, REVERSIBLE, query=Query(view=view)).relation is Relation.SOMETIMES

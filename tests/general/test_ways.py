@@ -99,14 +99,14 @@ PAIRS = [
 ]
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right", "relation"), PAIRS)
 def test_relations_by_hand(left, right, relation):
     for one, other in ((left, right), (right, left)):
         assert positive(one, other).relation is relation
 
 
-@pytest.mark.thin(4)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right", "relation"), PAIRS)
 def test_points_against_groebner_bases(left, right, relation):
     """What is said of all points around a point is true at the point itself."""
@@ -133,6 +133,7 @@ def test_formulas_put_in_by_sympy():
         assert sp.expand(put - given.subs(plain)) == 0
 
 
+@pytest.mark.full
 def test_a_root_between_two_formulas():
     """k = x + y, w = x y + x z: a quadratic whose positive root lies between formulas for all
     positive parameters.
@@ -235,6 +236,7 @@ SHARED_FACTORS = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("left", "right", "relation"), SHARED_FACTORS)
 def test_a_factor_of_two_inequalities_is_one_bound(left, right, relation):
     """Any e, f, g, h: c smaller than f and g, then a1 = f - c, a2 = g - c, and b is what e
@@ -264,6 +266,7 @@ def test_sections_of_two_products_with_a_common_factor():
         )
 
 
+@pytest.mark.full
 def test_a_root_at_which_a_denominator_vanishes_is_none():
     """a = c (d^2 - 2)^2 and d^3 = b - g - a^2 < b - g: no equivalent where b <= g, least of all
     d^2 = 2 with c = a/0.

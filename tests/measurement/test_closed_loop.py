@@ -65,6 +65,7 @@ def test_a_reference_that_is_the_input_changes_nothing():
     assert np.median(one.deviation / ordinary) == pytest.approx(1)
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("noise", [0.01, 0.1])
 @pytest.mark.parametrize("kind", ["white", "low-pass", "binary", "steps", "chirp", "multisine"])
 def test_no_open_loop_is_taken_for_a_closed_one(kind, noise):
@@ -138,6 +139,7 @@ def test_a_short_or_constant_record_has_no_such_test():
     assert loop_in_noise(u[:5000], np.ones(5000), 1) is None
 
 
+@pytest.mark.full
 def test_lines_without_coherence_are_left_out_and_counted():
     source = np.random.default_rng(4)
     u = lfilter(*butter(4, 0.1), source.normal(size=N))

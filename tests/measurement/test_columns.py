@@ -28,7 +28,7 @@ def refused(path, **options):
     return str(found.value), found.value.detail
 
 
-@pytest.mark.thin(30)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("unit", FREQUENCIES)
 @pytest.mark.parametrize(
     "form", ["f [{}]", "Frequency ({})", "f/{}", "Frequency in {}", "freq, {}"]

@@ -146,6 +146,7 @@ def trace(first="", lost="0", frames=1):
     return f"{head}<traceData dataFrames='{frames}'>{frames * frame}</traceData></traceSession>"
 
 
+@pytest.mark.full
 def test_a_trace_of_sinumerik(tmp_path):
     path = tmp_path / "a.xml"
     path.write_text(trace())

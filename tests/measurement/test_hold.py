@@ -143,6 +143,7 @@ def test_no_hold_is_found_for_a_lag_that_is_none():
     assert held(*near(recorded(lag=1.6e-3), chain, T1=1e-3)) is None
 
 
+@pytest.mark.full
 def test_the_third_line_suggests_the_hold():
     data = recorded(noise=7e-3)
     (line,) = (

@@ -155,6 +155,7 @@ def test_an_object_that_holds_itself_comes_to_an_end(tmp_path):
         read(path)
 
 
+@pytest.mark.full
 @given(st.floats(0, 1), st.integers(0, 12), st.binary(max_size=8))
 @settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None

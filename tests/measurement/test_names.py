@@ -26,7 +26,7 @@ def record(tmp_path):
     return table(tmp_path / "a.csv", header, t, u, np.cumsum(u), r, np.cumsum(r))
 
 
-@pytest.mark.thin(3)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "reference", ["excitation [Nm]", "excitation", "Excitation", " EXCITATION "]
 )

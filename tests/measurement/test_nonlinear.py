@@ -32,6 +32,7 @@ def response(seed, cube=0.0, square=0.0, noise=0.0, lines=ODD, level=1.0, phases
     return TimeSeries(u, y, 1000.0).response(period=PERIOD, transient=0)
 
 
+@pytest.mark.full
 def test_lines_without_excitation_predict_how_realisations_scatter():
     each = [response(seed, cube=0.02, noise=0.002) for seed in range(40)]
     best = np.mean([r.G for r in each], axis=0)
@@ -61,6 +62,7 @@ def test_distortion_of_one_excitation_is_not_averaged_away():
     assert np.median(mean.noise / one.noise) == pytest.approx(0.5, abs=0.2)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("square", [0.0, 0.05])
 def test_where_no_odd_distortion_is_measured_deviations_are_those_of_the_periods(square):
     """Products of an even number of odd lines are even: they do not fall on excited ones."""

@@ -287,6 +287,7 @@ def test_a_cut_file_is_refused_or_still_a_response(tmp_path, whole, which, share
     refused(tmp_path / name, content[: int(share * len(content))])
 
 
+@pytest.mark.full
 @given(
     st.sampled_from(["a.mat", "a.uff", "a.unv"]),
     st.sampled_from([b"", b"\x89HDF\r\n\x1a\n", b"    -1\n    58\n"]),

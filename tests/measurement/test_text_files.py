@@ -37,6 +37,7 @@ def lines(rows, delimiter=",", decimal="."):
     return [delimiter.join(repr(float(x)).replace(".", decimal) for x in row) for row in rows]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("delimiter", "decimal"),
     [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), ("  ", "."), (" ", ",")],
@@ -260,6 +261,7 @@ def test_options_that_a_format_does_not_know_are_refused(tmp_path):
         read(path, sign=0)
 
 
+@pytest.mark.full
 def test_data_frames(tmp_path):
     pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame({"f [Hz]": FREQUENCY, "Re": G.real, "Im": G.imag, "coherence": 0.5})

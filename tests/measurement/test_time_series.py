@@ -71,6 +71,7 @@ def test_the_first_of_two_periods_is_dropped_where_it_shows_a_transient(size, pe
     assert abs(found.G / (0.5 * np.exp(-3j * found.omega / RATE)) - 1).max() < 0.01
 
 
+@pytest.mark.full
 def test_two_periods_of_noise_are_rarely_taken_for_a_transient():
     draw = np.random.default_rng(4)
     resonant = scipy.signal.lfilter([1], [1, -1.98, 0.9801], draw.normal(size=(200, 2400)))[:, 400:]
@@ -88,6 +89,7 @@ def test_conversion_and_sign():
     assert acceleration.quantity is Quantity.ACCELERATION
 
 
+@pytest.mark.full
 def test_deviation_and_coherence_are_those_of_the_noise():
     u = multisine(periods=201)
     source = np.random.default_rng(3)

@@ -40,6 +40,7 @@ def record(periods=4, slope=0.0, curve=0.0, noise=0.0, quantity="position", peri
     )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("periods", [2, 3, 6])
 @pytest.mark.parametrize("curve", [0.0, 0.7])
 @pytest.mark.parametrize("noise", [0.0, 1e-3])
@@ -99,6 +100,7 @@ def test_noise_alone_is_no_trend():
     assert not any(found)
 
 
+@pytest.mark.full
 def test_a_position_that_moves_on_is_read_by_welch_as_one_at_rest():
     source = np.random.default_rng(4)
     u = source.normal(size=60_000)

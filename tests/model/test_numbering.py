@@ -24,6 +24,7 @@ def listed(n):
                 yield indices
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("n", range(1, 13))
 def test_counting_is_listing(n):
     every = list(listed(n))
@@ -64,6 +65,7 @@ def test_what_is_not_listed_has_no_number():
         Family(9)[994]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("pair", [("9:1", "9:2"), ("8:1", "9:1"), ("12:1+b12", "12:3851")])
 def test_sentences_of_large_chains_have_their_names(pair):
     sentence = compare(*pair, damped=False).sentence

@@ -43,7 +43,7 @@ def receptance(structure, act, meas):
     return sp.cancel((-1) ** (act + meas) * minor / a.det())
 
 
-@pytest.mark.thin(30)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("row", ROWS, ids=str)
 def test_degrees_and_poles_at_zero_are_those_of_the_receptance(row):
     found = receptance(row.structure, row.a, row.b)
@@ -58,7 +58,7 @@ def test_degrees_and_poles_at_zero_are_those_of_the_receptance(row):
     assert row.numerator_degree_in(2) == num.degree()
 
 
-@pytest.mark.thin(30)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("row", ROWS, ids=str)
 def test_a_row_is_found_again_in_its_structure(row):
     assert rows_of(row.structure) == (row,)

@@ -82,7 +82,7 @@ def test_random_networks(description, seed) -> None:
     agrees(model, random.Random(seed))
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("family", "known"), [("machines-2-damped", 13), ("circuits-4", 63), ("compartments-2", 12)]
 )
@@ -95,7 +95,7 @@ def test_families(family, known) -> None:
     assert seen == known
 
 
-@pytest.mark.thin(6)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "text",
     [

@@ -61,6 +61,7 @@ def is_read_or_refused(read):
     return network
 
 
+@pytest.mark.full
 @given(TEXTS, NOTATION)
 def test_text_is_read_or_refused(text, notation):
     is_read_or_refused(lambda: network_of(text, notation))

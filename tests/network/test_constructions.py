@@ -77,6 +77,7 @@ def lacking(theorem, draws):
     )
 
 
+@pytest.mark.full
 def test_what_is_not_the_same_is_not_constructed():
     """A chain of four compartments where real poles are asked for, and a cycle without them."""
     draw = random.Random(1)

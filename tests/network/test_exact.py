@@ -123,6 +123,7 @@ def test_a_special_impedance_is_that_of_the_other_network():
         assert 1 / mine == 1 / theirs["R1"] + sum(1 / z for z in branches)
 
 
+@pytest.mark.full
 def test_what_never_falls_together_has_one_order(orders):
     """Cauer's ladders determine the order, Foster's forms do not."""
     one = [text for text, found in orders.items() if len(found) == 1]

@@ -106,7 +106,7 @@ SAME = [
 ]
 
 
-@pytest.mark.thin(2)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("pair", "view"), list(product(SAME, [View.EXACT, View.REAL, View.POSITIVE]))
 )
@@ -120,6 +120,7 @@ def test_machines_that_are_the_same_but_for_gears(pair, view) -> None:
     assert told.status is Status.HOLDS, told
 
 
+@pytest.mark.full
 def test_parts_are_replaced_behind_gears_too() -> None:
     left, right = (network_of(t) for t in ("1~2*i, 1~3; F1; S1", "1~2~3; F1; S1"))
     found = compare(left, right, query=Query(View.POSITIVE, inclusion=False))
@@ -133,6 +134,7 @@ def test_other_machines_with_gears_are_told_apart() -> None:
     assert compare(left, turned).relation is Relation.DISTINGUISHABLE
 
 
+@pytest.mark.full
 def test_formulas_say_the_units(capsys) -> None:
     assert main(["equivalents", SAME[1][0], "--to", SAME[1][1], "--formulas"]) == 0
     said = capsys.readouterr().out

@@ -28,6 +28,7 @@ def response(network, values, s):
     return (c @ np.linalg.solve(a, b.T)) * s**network.order
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("family", ["circuits-4", "machines-2", "machines-2-damped", "machines-3"])
 def test_the_response_at_1_over_s(family):
     """Inductance and capacitance become the inverse of each other, all else keeps its value."""

@@ -35,6 +35,7 @@ def relation(left: str, right: str, domain: Domain = Domain.COMPLEX) -> str:
     return compare(left, right, query=Query(view)).relation.value
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("left", "right", "same"),
     [

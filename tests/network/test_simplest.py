@@ -80,6 +80,7 @@ def test_one_simplest_network_exactly_where_normal_forms_are_one_graph(name):
     assert alike
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "name", [*FAMILIES, *(pytest.param(n, marks=pytest.mark.slow) for n in LARGE)]
 )
@@ -105,7 +106,7 @@ def test_numbers_of_nodes_do_not_matter():
         assert simplest(network_of(text)) == simplest(network), text
 
 
-@pytest.mark.thin(3)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("name", [*FAMILIES, "machines-3", "circuits-5", "cells-4"])
 def test_damaged_networks_have_one_with_the_same_coefficients(name):
     """With elements too many, hanging, elsewhere, gears, ports turned: no error, no other order."""
@@ -147,6 +148,7 @@ def test_pairs_that_were_open(left, right, relation):
         assert (theirs is not None) == (relation == "indistinguishable")
 
 
+@pytest.mark.full
 def test_evidence_on_other_networks_is_refused():
     for left, right in (DECIDED[1][:2], LARGER):
         data = verdict_file(left, right)

@@ -30,7 +30,7 @@ MANY = [
 DAMAGED = ["machines-2", "machines-2-damped", "circuits-4", "cells-4", "compartments-2"]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @needs_singular
 @pytest.mark.parametrize(("name", "most"), FEW)
 def test_some_verdicts_over_complex_values(name, most, record_property):
@@ -121,6 +121,7 @@ def agree_with_twins(pairs, tried, record_property):
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.full
 def test_formulas_in_six_unknowns_are_found_in_one_of_many_orders():
     """With half as many orders the pair stays open."""
     verdict = compare("#=1, 1=2; F1; S1", "#=1, 1=2; F2:1; S2:1")

@@ -83,6 +83,7 @@ def test_power_of_several_parameters_is_what_sampling_shows():
     assert power(13.0, 3) == pytest.approx(seen, abs=0.004)
 
 
+@pytest.mark.full
 def test_published_example_allows_a_noise_of_24_percent():
     found = plan(MODEL, VALUES, RIVAL, OMEGA, alike(0.2))
     assert np.sum(found.rival.apart**2) == pytest.approx(1.049, abs=0.001)
@@ -91,6 +92,7 @@ def test_published_example_allows_a_noise_of_24_percent():
     assert found.noncentrality == pytest.approx(1.0493 / 0.04, rel=1e-3)
 
 
+@pytest.mark.full
 def test_best_fit_of_the_rival_is_no_worse_than_that_of_another_optimiser(planned):
     rival = planned.rival
     exact = predict(MODEL, VALUES, OMEGA)
@@ -109,6 +111,7 @@ def test_best_fit_of_the_rival_is_no_worse_than_that_of_another_optimiser(planne
     assert rival.noncentrality == pytest.approx(min(ends), rel=1e-3)
 
 
+@pytest.mark.full
 def test_effort_counts_as_its_square_in_amplitude_and_lines_by_their_number(planned):
     half = plan(MODEL, VALUES, RIVAL, OMEGA, planned.rival.rho * np.sqrt(2))
     assert half.noncentrality == pytest.approx(planned.noncentrality / 2, rel=1e-6)
@@ -141,6 +144,7 @@ def quiet(weaker):
     return plan(MODEL, values, RIVAL, OMEGA, alike(0.05 / np.sqrt(found.factor)))
 
 
+@pytest.mark.full
 def test_planned_power_is_had(planned):
     assert planned.power == pytest.approx(POWER, abs=1e-6)
     found = share(planned.rival, MODEL, VALUES, 150, 1)
@@ -171,6 +175,7 @@ def test_planned_power_of_two_surplus_parameters():
     assert seen == pytest.approx(POWER, abs=0.03)
 
 
+@pytest.mark.full
 def test_where_the_model_contains_the_rival_the_test_is_the_difference_of_the_costs():
     plain = Chain(2, damped=True)
     rival = fitted_rival(MODEL, VALUES, plain, OMEGA, alike(0.05))
@@ -211,6 +216,7 @@ def test_indistinguishable_structures_are_not_even_fitted():
     assert found.power == LEVEL and found.factor == np.inf
 
 
+@pytest.mark.full
 def test_rival_that_contains_the_model_is_never_excluded_and_the_limit_is_named():
     found = plan(MODEL, VALUES, BOTH, OMEGA, alike(0.001))
     assert found.verdict.relation is Relation.DISTINGUISHABLE
@@ -221,6 +227,7 @@ def test_rival_that_contains_the_model_is_never_excluded_and_the_limit_is_named(
     assert reverse.noncentrality > 0
 
 
+@pytest.mark.full
 def test_a_limit_on_narrow_lines_is_not_taken_for_a_rival_that_contains_the_model(planned):
     """At 10^-30 Hz a mass does nothing, which is no statement on structures."""
     slow = OMEGA * 1e-30
@@ -230,6 +237,7 @@ def test_a_limit_on_narrow_lines_is_not_taken_for_a_rival_that_contains_the_mode
     assert said.startswith("impossible on these lines") and "wider range" in said
 
 
+@pytest.mark.full
 def test_a_larger_structure_contains_the_smaller_one_as_the_verdict_tells():
     small = Chain(2, damped=True)
     values = {n: v for n, v in VALUES.items() if n != "b1"}
@@ -269,6 +277,7 @@ def test_data_at_other_lines_are_refused(planned):
         gain(planned.rival, FrequencyResponse(OMEGA * 1.1, predict(MODEL, VALUES, OMEGA)))
 
 
+@pytest.mark.full
 def test_a_scatter_that_has_to_be_found_excludes_less(planned):
     """From one measurement the least, from fifty repeats what a known one does."""
     plain = planned.rival, planned.surplus, planned.level

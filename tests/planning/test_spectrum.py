@@ -63,6 +63,7 @@ def refitted(rival, shares, starts):
     return min(found)
 
 
+@pytest.mark.full
 def test_optimal_spectrum_meets_its_bound_and_beats_equal_lines(adversary, best):
     assert best.shares.sum() == pytest.approx(1.0) and best.shares.min() >= 0.0
     assert best.noncentrality <= best.bound <= best.noncentrality * (1 + 3 * CLOSE)

@@ -64,6 +64,7 @@ def _colour(tab, row: int, column: int) -> tuple[int, ...]:  # type: ignore[no-u
 BLUE, ORANGE = (0, 114, 178), (240, 168, 24)
 
 
+@pytest.mark.full
 def test_a_click_shows_both_chains_and_the_reason(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     assert not tab.is_visible("#detail")
@@ -151,6 +152,7 @@ def test_the_drawing_shows_the_relations(visit) -> None:  # type: ignore[no-unty
         assert _colour(tab, row, column) == (ORANGE if same else BLUE)
 
 
+@pytest.mark.full
 def test_a_filter_dims_what_is_not_asked_for(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.uncheck('input[name="distinguishable"]')
@@ -164,6 +166,7 @@ def test_a_filter_dims_what_is_not_asked_for(visit) -> None:  # type: ignore[no-
     )
 
 
+@pytest.mark.full
 def test_the_order_by_group_puts_blocks_on_the_diagonal(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("chains-3-undamped.html")
     largest = max(len(g) for g in catalog(3, damped=False).classes())
@@ -206,6 +209,7 @@ def test_the_keyboard_moves_opens_zooms_and_closes(visit) -> None:  # type: igno
     assert tab.evaluate(label).startswith("A2 and A10")
 
 
+@pytest.mark.full
 def test_the_focus_is_seen(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.focus(CURSOR)
@@ -365,6 +369,7 @@ def test_one_click_leads_from_the_start_to_the_reason(visit) -> None:  # type: i
     assert tab.inner_text("#detail .badge") == "indistinguishable"
 
 
+@pytest.mark.full
 def test_links_to_undecided_pairs_open_them(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     follow_link(tab, ".pairlink >> nth=0")
@@ -373,6 +378,7 @@ def test_links_to_undecided_pairs_open_them(visit) -> None:  # type: ignore[no-u
     assert tab.text_content('[data-slot="in-combined"]') == "undecided"
 
 
+@pytest.mark.full
 def test_mathematics_is_typeset_without_a_script(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("models/3-damped/1.html")
     box = tab.locator(".display math").bounding_box()

@@ -148,6 +148,7 @@ def test_look_ups_in_thousands_of_models_are_pythons(visit, large: DamperFamily)
     assert visit(LARGE).evaluate(LOOK_UP, pairs + near) == expected
 
 
+@pytest.mark.full
 def test_a_page_of_thousands_of_models_is_small(site: Path) -> None:
     assert (site / LARGE).stat().st_size < 500_000
 
@@ -279,6 +280,7 @@ def test_the_start_page_and_the_catalogue_lead_here(visit) -> None:  # type: ign
     assert tab.inner_text("h1") == "Chains of 3 masses, damped"
 
 
+@pytest.mark.full
 def test_the_order_by_group_puts_blocks_on_the_diagonal(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     tab.check('input[value="group"]', force=True)
@@ -327,6 +329,7 @@ def test_one_group_holds_its_members(visit, small: DamperFamily) -> None:  # typ
     assert not tab.is_visible("#detail") and "#" not in tab.url
 
 
+@pytest.mark.full
 def test_a_relation_can_be_dimmed(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A2")
     tab.select_option("#only", "structure-2")

@@ -123,6 +123,7 @@ def test_two_things_at_once_are_one_drawing():
     assert sketch(5, Chain(3, damped=False), (Item(LOCK, 2),)).parts == ("chain-5", "more-lock-2")
 
 
+@pytest.mark.full
 def test_what_a_page_shows_it_holds_once():
     pages = [model_page(DAMPED, 2), next_page(DAMPED, next_catalog(3, damped=True))]
     for text in pages:
@@ -230,6 +231,7 @@ def test_every_part_carries_its_name_once(chain: Chain) -> None:
     assert named == {e.parameter: [e.parameter] for e in chain.structure.elements}
 
 
+@pytest.mark.full
 @few
 @given(chains())
 def test_no_line_passes_a_name(chain: Chain) -> None:

@@ -60,6 +60,7 @@ def test_a_pair_is_drawn_named_and_told(visit, family) -> None:  # type: ignore[
     assert tab.locator(f"#A{high} math").count() >= 3
 
 
+@pytest.mark.full
 def test_the_search_and_the_start_page_find_them(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html")
     assert tab.locator('a[href="list-circuits-4.html"]').count() == 1

@@ -72,6 +72,7 @@ def read(texts: tuple[str, ...]) -> sympy.Expr:
     )
 
 
+@pytest.mark.full
 @settings(max_examples=60, deadline=None)
 @given(rational_functions)
 def test_a_typeset_function_is_the_function(function: RationalFunction) -> None:
@@ -103,7 +104,7 @@ def test_a_root_is_a_fraction_of_two() -> None:
     assert sympy.expand(value(above) + a + b - sympy.sqrt(a * b)) == 0 == value(below) - 2 * a
 
 
-@pytest.mark.thin(5)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "family", FAMILIES, ids=lambda f: f"{f.n_masses}-{'damped' if f.damped else 'undamped'}"
 )

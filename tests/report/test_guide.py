@@ -110,6 +110,7 @@ def test_links_lead_to_files_and_the_listing_to_every_page() -> None:
     assert "disting/guide/index.md" in TEXTS["README.md"]
 
 
+@pytest.mark.full
 def test_parts_in_the_order_of_the_listing() -> None:
     listed = re.findall(r"^\| \[[^]]+\]\(([\w-]+)\.md\)", TEXTS["index.md"], re.MULTILINE)
     listing = guide_parts(guide_texts())
@@ -189,6 +190,7 @@ def test_markup_is_text(frame: str) -> None:
     )
 
 
+@pytest.mark.full
 @given(st.text(st.sampled_from("<>&\"'`[]()#|-*_!\\ \nab:/."), max_size=60))
 def test_any_text_gives_whole_elements_and_known_links(text: str) -> None:
     outline = Outline(str(rendered(text).body).replace("<hr />", "").replace("<br />", ""))
@@ -374,6 +376,7 @@ def test_every_address_that_the_search_knows_is_there(site: Path) -> None:
         assert title and anchor in ids[data["pages"][place][0]], (place, anchor)
 
 
+@pytest.mark.full
 def test_executed_notebooks_are_pages_with_their_outputs(tmp_path: Path) -> None:
     shipped = notebooks()
     found = {part.title: part for part in guide(notebooks=shipped)}["Notebooks"]

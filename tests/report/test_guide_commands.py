@@ -82,7 +82,7 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("cache") / "cache.sqlite3"
 
 
-@pytest.mark.thin(4)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("page", "command", "output"), [t for t in transcripts() if is_cheap(t[1])]
 )

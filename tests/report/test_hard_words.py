@@ -61,6 +61,7 @@ def test_what_is_looked_for_is_found() -> None:
     assert unexplained('<dt id="word-hit-rate">Hit rate</dt>') == set()
 
 
+@pytest.mark.full
 def test_every_hard_word_is_in_the_glossary() -> None:
     pages = {one.name: one for part in guide() for one in part.pages}
     known = {section.anchor for section in pages[PAGE].sections}
@@ -82,6 +83,7 @@ def test_pages_of_catalogues_and_the_start_page() -> None:
     assert [unexplained(text) for text in texts] == [set()] * 4
 
 
+@pytest.mark.full
 def test_the_page_of_a_fit(
     selection: Selection,  # noqa: F811
     train: FrequencyResponse,  # noqa: F811

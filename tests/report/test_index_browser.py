@@ -123,6 +123,7 @@ def test_nothing_but_admissible_descriptions_is_offered(visit) -> None:  # type:
         assert tab.locator('[name="gap"] option').count() == n
 
 
+@pytest.mark.full
 def test_the_drawing_is_that_of_the_chain(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("index.html")
     for chain, found in _described(

@@ -46,6 +46,7 @@ def site(tmp_path_factory: pytest.TempPathFactory, four: Listing) -> Path:
     return folder
 
 
+@pytest.mark.full
 def test_classes_fall_apart_where_one_network_reaches_lower_degrees(four: Listing) -> None:
     """R1 C1 = R2 C2 makes one pole of two in Foster's form; Cauer's ladder always has both."""
     found = classes(four)

@@ -43,6 +43,7 @@ def test_nothing_leaves_the_figure(shipped: Catalog) -> None:
         assert 0 <= left <= right <= scene.width and 0 <= top <= bottom <= scene.height, shape
 
 
+@pytest.mark.full
 def test_files_are_readable_and_reproducible(shipped: Catalog) -> None:
     text, scene = matrix_svg(shipped), figure(shipped)
     assert ElementTree.fromstring(text).get("width") == f"{scene.width:.2f}".rstrip("0").rstrip(".")

@@ -38,6 +38,7 @@ def assert_names(
     assert always <= named
 
 
+@pytest.mark.full
 def test_every_indistinguishable_model_is_named_and_no_other(
     shipped: Catalog, outlines: dict[int, Outline]
 ) -> None:

@@ -82,6 +82,7 @@ def data(page: str):
     return json.loads(text[1])
 
 
+@pytest.mark.full
 def test_what_is_judged_is_what_compare_says(vessels) -> None:  # type: ignore[no-untyped-def]
     engine, models = Engine(), vessels.family
     for view in (View.POSITIVE, View.EXACT):
@@ -251,6 +252,7 @@ def test_a_pair_is_found_by_its_names_and_told(visit, vessels) -> None:  # type:
     assert tab.inner_text("#trouble").startswith("Type the name of a model")
 
 
+@pytest.mark.full
 def test_the_domain_changes_groups_and_views(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(f"{NAME}.html")
     assert tab.locator("#groups .group:visible").count() == 1
@@ -261,6 +263,7 @@ def test_the_domain_changes_groups_and_views(visit) -> None:  # type: ignore[no-
     assert tab.locator("#group option").all_inner_texts()[1] == "1: two leaks, exchange, low passes"
 
 
+@pytest.mark.full
 def test_hostile_names_are_told_and_not_obeyed(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit("list-hostile.html#1-2")
     assert tab.inner_text("#detail h3") == f"{HOSTILE[0]} and {HOSTILE[1]}"
@@ -284,6 +287,7 @@ def own(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return write_family(drives(), "Two loads", tmp_path_factory.mktemp("own"))
 
 
+@pytest.mark.full
 def test_a_family_of_ones_own_has_the_same_pages(own: list[Path]) -> None:
     assert [p.name for p in own[:4]] == [
         "list-two-loads.html", "list-two-loads.csv", "list-two-loads.json", "list-two-loads-models.csv",

@@ -312,6 +312,7 @@ def test_the_page_knows_which_verdicts_leave_special_values_aside(masses, damped
     assert sorted(_data(motion_page(c))["aside"]) == pairs and len(pairs) == count
 
 
+@pytest.mark.full
 def test_a_pair_says_that_special_values_are_left_aside(visit) -> None:  # type: ignore[no-untyped-def]
     low, high = next(
         (low, high)

@@ -57,6 +57,7 @@ def test_every_element_is_drawn_and_named_once(drawn: Network) -> None:
         assert texts.count(value) == 1, value
 
 
+@pytest.mark.full
 @few
 @given(networks())
 def test_all_lies_in_the_picture_and_no_letters_on_others(drawn: Network) -> None:
@@ -70,6 +71,7 @@ def test_all_lies_in_the_picture_and_no_letters_on_others(drawn: Network) -> Non
             assert right <= a or c <= left or bottom <= b or d <= top
 
 
+@pytest.mark.full
 @few
 @given(networks())
 def test_no_joint_passes_a_node_between_its_ends(drawn: Network) -> None:
@@ -176,6 +178,7 @@ def test_forces_point_at_their_mass_and_sensors_mark_theirs() -> None:
     assert dots == [Ink.SENSOR, Ink.PAPER]
 
 
+@pytest.mark.full
 def test_a_network_of_the_largest_size_is_drawn() -> None:
     masses = ", ".join(f"{i}~{i + 1}" for i in range(1, 40))
     assert len(draw_network(network_of(f"{masses}; F1; S40")).layers) > 100

@@ -98,6 +98,7 @@ def test_frequency_responses_are_those_of_python(visit, found) -> None:
         np.testing.assert_allclose([complex(*pair) for pair in pairs], expected, rtol=1e-8)
 
 
+@pytest.mark.full
 def test_derivatives_behind_gears_are_those_of_differences(visit) -> None:
     machine = machine_of(of_network(network_of(GEARED[1])))
     given, values = drawing_of(machine), start_values_of(machine)

@@ -89,6 +89,7 @@ def test_the_page_of_a_large_catalogue_is_short_and_its_tables_fit(tab, tmp_path
     assert table.evaluate("(box) => box.scrollWidth <= box.clientWidth")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("width", [1280, 390])
 def test_the_panel_draws_what_it_proposes(visit, width):
     page = visit("chains-3-damped.html#2-5", width=width)

@@ -162,6 +162,7 @@ def test_the_matrix_of_a_catalogue_is_that_of_its_data_frame():
     assert [[cell.text for cell in row[1:]] for row in rows] == wanted
 
 
+@pytest.mark.full
 def test_a_selection_lists_candidates_criteria_and_what_is_excluded(found):
     html = found._repr_html_()
     said = text(html)

@@ -53,6 +53,7 @@ def _unpacked(runs: list[int]) -> list[int]:
     return found
 
 
+@pytest.mark.full
 def test_it_holds_every_pair_in_every_view(shipped: Catalog, text: str) -> None:
     size = len(shipped.family)
     if size == 1:
@@ -163,6 +164,7 @@ def test_nothing_is_fetched(render: object) -> None:
     )
 
 
+@pytest.mark.full
 def test_the_largest_page_is_small_and_complete(largest: str) -> None:
     assert len(largest.encode()) < 3_000_000
     assert [len(_unpacked(runs)) for runs in _data(largest)["views"].values()] == 5 * [2628]  # type: ignore[attr-defined]

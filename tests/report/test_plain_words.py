@@ -119,6 +119,7 @@ def faults(path: Path, phrases: Sequence[str]) -> list[str]:
     ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
 def test_plain_words(path: Path) -> None:
     assert faults(path, PHRASES) == []
@@ -131,6 +132,7 @@ def glossary() -> dict[str, str]:
     return {term: text for heading, text in headings for term in heading.split(", ")}
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.name)
 def test_one_word_for_one_thing(path: Path) -> None:
     assert faults(path, [rf"\b(?:{words})\b" for words in SYNONYMS.values()]) == []

@@ -52,6 +52,7 @@ def test_every_template_of_a_page_has_a_policy_before_all_that_it_is_about(templ
     assert not re.search(r"<script>|<style>|\son\w+=|javascript:", text)
 
 
+@pytest.mark.full
 def test_scripts_are_allowed_by_their_bytes_and_nothing_else_is(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     policy = policy_of(text)
@@ -71,6 +72,7 @@ def test_a_text_that_calls_itself_a_script_is_not_allowed() -> None:
     assert source_of("1") in text and source_of("2") not in text
 
 
+@pytest.mark.full
 def test_what_is_pushed_into_a_page_neither_runs_nor_fetches(tab, page: Path) -> None:  # type: ignore[no-untyped-def]
     text = page.read_text(encoding="utf-8")
     damaged = page.with_name("damaged.html")

@@ -23,7 +23,7 @@ def offered(name: str) -> dict[str, object]:
     }
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("name", MODULES)
 def test_every_public_name_is_there_with_its_arguments(name: str) -> None:
     found = {entry.name: entry for entry in entries(name)}
@@ -39,6 +39,7 @@ def test_every_public_name_is_there_with_its_arguments(name: str) -> None:
             assert entry.text == (inspect.getdoc(value) if value.__doc__ else "")
 
 
+@pytest.mark.full
 def test_defaults_and_types_are_those_of_the_source() -> None:
     prove = next(entry for entry in entries("disting") if entry.name == "prove")
     last = next(a for a in prove.arguments if a.name == "seconds")  # type: ignore[union-attr]
@@ -47,12 +48,14 @@ def test_defaults_and_types_are_those_of_the_source() -> None:
     assert engine.arguments[0].default == "Settings()"  # type: ignore[index]
 
 
+@pytest.mark.full
 def test_exceptions_are_those_of_docstring_and_body() -> None:
     raised = {entry.name: entry.raises for entry in entries("disting")}
     assert raised["catalog"] == ("CatalogError",)
     assert set(raised["Chain"]) == {"ConstraintViolation", "InputError"}
 
 
+@pytest.mark.full
 def test_members_that_are_public_and_explained() -> None:
     sensor = next(entry for entry in entries("disting") if entry.name == "Quantity")
     kinds = {member.name: member.kind for member in sensor.members}
@@ -63,6 +66,7 @@ def names(entry: Entry) -> list[str]:
     return [entry.name, *(f"{entry.name}.{member.name}" for member in entry.members)]
 
 
+@pytest.mark.full
 def test_every_name_has_one_place_and_every_link_leads_to_one() -> None:
     pages = {f"{page.name}.html": Outline(str(page.body)) for page in python_pages()}
     ids = {name: [a["id"] for _, a in o.elements if "id" in a] for name, o in pages.items()}

@@ -234,6 +234,7 @@ def test_the_address_of_a_catalogue_leads_on_to_two_sizes(visit) -> None:  # typ
     assert tab.inner_text("h1").startswith("Chains of 1 to 3 masses")
 
 
+@pytest.mark.full
 def test_a_model_of_no_page_has_no_link(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(PAGE + "#1:1-3:4")
     assert tab.get_attribute('#detail [data-slot="left-name"]', "href") is None

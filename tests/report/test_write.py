@@ -97,6 +97,7 @@ def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
     assert [p.read_bytes() for p in first] == [p.read_bytes() for p in second]
 
 
+@pytest.mark.full
 def test_the_index_keeps_the_pages_that_are_there(tmp_path: Path) -> None:
     for page in ("chains-3-undamped.html", "chains-1-damped.html"):
         (tmp_path / page).touch()

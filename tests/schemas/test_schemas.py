@@ -152,7 +152,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
-@pytest.mark.thin(3)
+@pytest.mark.full
 @pytest.mark.parametrize(("command", "of"), [*WRITTEN, *BY_HAND])
 def test_what_a_command_writes_is_what_its_schema_says(
     folder: Path, command: str, of: Format, monkeypatch: pytest.MonkeyPatch
@@ -187,6 +187,7 @@ def test_a_file_of_models_is_what_its_schema_says(tmp_path: Path) -> None:
         read_models(path)
 
 
+@pytest.mark.full
 def test_every_format_has_a_schema_of_its_own_and_all_are_written_somewhere() -> None:
     for of in Format:
         found = schema(of)

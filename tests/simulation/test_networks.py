@@ -142,6 +142,7 @@ def test_viscous_friction_of_a_node_is_a_damper_to_the_ground():
     np.testing.assert_allclose(left.y, right.y, atol=1e-9 * np.abs(left.y).max())
 
 
+@pytest.mark.full
 def test_time_steps_of_a_geared_loop_agree_with_the_exact_lines():
     network = network_of("1=2*i, 2=3, 1=3; F1; S3", quantity="position")
     values = truth(network)

@@ -115,6 +115,7 @@ CHAINS = [
 ]
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 def test_a_record_without_noise_has_the_response_of_the_model(chain):
     values = truth(chain)

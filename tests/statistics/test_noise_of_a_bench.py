@@ -55,7 +55,7 @@ def exact(machine: Drive, omega: np.ndarray) -> np.ndarray:
     return response_at(truth(machine), machine.values, omega)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("repeats", [1, 2, 10])
 def test_the_scatter_is_that_of_the_bench_however_often_it_was_measured(repeats):
     sizes, shapes = [], []
@@ -82,6 +82,7 @@ def test_the_reader_is_the_plain_quotient_of_the_spectra():
     assert data.freedom == 4.0 and measured(machine, 1).freedom is None
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_reader_of_every_kind_of_record_is_a_few_lines_of_numpy(kind):
     machine = drive(2, 1, kind)
@@ -93,7 +94,7 @@ def test_the_reader_of_every_kind_of_record_is_a_few_lines_of_numpy(kind):
         np.testing.assert_allclose(data.G, response, rtol=1e-9)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("repeats", [1, 2, 10])
 @pytest.mark.parametrize("kind", ["white", "coloured", "quantised", "swept"])
 def test_whitened_residuals_of_every_kind_are_standard_normal(kind, repeats):

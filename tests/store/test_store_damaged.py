@@ -94,6 +94,7 @@ DAMAGES = [
 ]  # fmt: skip
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_file_that_cannot_be_trusted_is_set_aside(
     damage: Callable[[Path], None], filled: Path
@@ -201,7 +202,7 @@ def test_a_file_removed_under_an_open_store(filled: Path) -> None:
         assert other.get_many(TEN) == {key(1): "1"}
 
 
-@pytest.mark.thin(15)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("seed", range(45))
 def test_no_flipped_bit_ever_gives_a_wrong_value(seed: int, filled: Path) -> None:
     """A third of the bits are in the header and the first page, where they do the most harm."""
@@ -243,6 +244,7 @@ def test_a_cut_within_the_last_page_costs_the_entries_there_only(filled: Path) -
         assert store.get_many(right) == right
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "change",
     [

@@ -13,6 +13,7 @@ from tests.store.store_tools import aside, cache_warnings, first_line, start, st
 from tests.store.store_worker import items
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("times", [3, pytest.param(30, marks=pytest.mark.slow)])
 def test_nothing_committed_is_lost_when_the_process_is_killed_again_and_again(
     path: Path, times: int
@@ -35,6 +36,7 @@ def test_nothing_committed_is_lost_when_the_process_is_killed_again_and_again(
     assert aside(path) == []
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("times", [3, pytest.param(20, marks=pytest.mark.slow)])
 def test_a_kill_while_the_file_is_made_leaves_nothing_half_made(path: Path, times: int) -> None:
     chance = random.Random(6)

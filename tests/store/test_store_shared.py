@@ -61,6 +61,7 @@ def test_processes_that_keep_replacing_the_file_do_not_disturb_each_other(
         assert works(store)
 
 
+@pytest.mark.full
 def test_a_write_waits_for_another_process(filled: Path) -> None:
     worker, found = start("hold", filled), []
     assert first_line(worker) == "held\n"
@@ -93,6 +94,7 @@ def join(threads: list[threading.Thread]) -> None:
     assert not any(thread.is_alive() for thread in threads)
 
 
+@pytest.mark.full
 def test_threads_share_a_store(path: Path) -> None:
     wrong: list[object] = []
 
@@ -161,7 +163,7 @@ def test_commits_of_a_forked_child_outlive_the_close_of_its_parent(path: Path) -
         }
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("memory", [False, True])
 def test_forks_amid_the_work_of_threads(path: Path, memory: bool) -> None:
     store = Store.open(":memory:" if memory else path)
@@ -189,6 +191,7 @@ def test_forks_amid_the_work_of_threads(path: Path, memory: bool) -> None:
     store.close()
 
 
+@pytest.mark.full
 def test_a_forgotten_store_does_not_live_on_in_the_fork_hooks(path: Path) -> None:
     store = Store.open(path)
     del store

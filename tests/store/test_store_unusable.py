@@ -97,6 +97,7 @@ def public() -> Iterator[Path]:
         yield Path(name)
 
 
+@pytest.mark.full
 def test_a_folder_without_permission_is_done_without(public: Path) -> None:
     os.chmod(public, 0o555)
     assert finish(start("nobody", public / "cache.sqlite3")) == ["found 0", "warnings 1"]
@@ -114,6 +115,7 @@ def test_a_file_without_permission_to_write_is_left_as_it_is(public: Path) -> No
     assert path.read_bytes() == before
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("size", [0, 5_000, 60_000])
 def test_a_full_disk_is_done_without(size: int, path: Path) -> None:
     assert finish(start("limited", path, size)) == ["found 0", "warnings 1"]

@@ -71,6 +71,7 @@ def test_other_tuples_are_refused_with_the_remedy(wrong, words):
         compare(wrong, EXCHANGE)
 
 
+@pytest.mark.full
 def test_matrices_are_models_everywhere():
     values = {"k12": 1, "k01": 2, "k02": 3}
     (found,) = equivalents(LEAKS, values, EXCHANGE)
@@ -96,6 +97,7 @@ def test_formulas_of_other_models_are_found_elsewhere(network):
         explicit_map(network, "3:1")
 
 
+@pytest.mark.full
 def test_a_domain_is_that_of_the_command_line():
     for domain, view in (("complex", View.EXACT), ("real", View.REAL), ("positive", View.POSITIVE)):
         assert compare(LEAKS, EXCHANGE, domain=domain) == compare(

@@ -44,6 +44,7 @@ def three(request):
     return damper_family(3, damped=request.param, engine=ENGINE)
 
 
+@pytest.mark.full
 def test_every_pair_of_three_masses_is_decided(three):
     assert len(three) == 88
     assert three.found.counts()[OPEN] == 0
@@ -80,6 +81,7 @@ def test_relations_are_symmetric_and_transitive(three):
             assert found.relation(i, j) is found.relation(j, i) is SAME
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("number", [1, 6, 7, 11])
 def test_as_the_table_of_one_model_says(three, number):
     table = dampers(three.family[number], DamperSets.ALL, engine=ENGINE, domain=Domain.COMPLEX)
@@ -146,6 +148,7 @@ def test_chains_that_do_not_belong_together_are_refused():
         classes([Chain(2, damped=False), Chain(2, dead_time=True, damped=False)], ENGINE)
 
 
+@pytest.mark.full
 def test_a_run_resumes_from_the_store(tmp_path):
     with Store.open(tmp_path / "cache.sqlite3") as store:
         chains = [

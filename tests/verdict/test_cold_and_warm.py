@@ -106,7 +106,7 @@ def three_ways(words, folder):
     return without.stdout
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("words", COMPARED, ids=" ".join)
 def test_verdicts_on_chains(words, tmp_path):
     for domain in DOMAINS:
@@ -156,7 +156,7 @@ def refuse_differences(verdicts):
         assert read_back(verdict) == verdict
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT, View.COMBINED])
 @pytest.mark.parametrize("damped", [False, True])
 def test_evidence_that_is_made_is_that_which_is_read(view, damped):
@@ -169,6 +169,7 @@ def test_evidence_that_is_made_is_that_which_is_read(view, damped):
     refuse_differences(decided.verdict(*pair) for pair in combinations(range(len(chains)), 2))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT])
 @pytest.mark.parametrize("name", ["single", "matrices"])
 def test_evidence_of_models_is_that_which_is_read(view, name, files):
@@ -176,6 +177,7 @@ def test_evidence_of_models_is_that_which_is_read(view, name, files):
     refuse_differences(decide(*pair, Query(view)) for pair in combinations(subjects, 2))
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT])
 def test_evidence_under_experiments_is_that_which_is_read(view):
     experiments = [Experiment(), Experiment(sensor=2), Experiment(locked=1)]
@@ -226,7 +228,7 @@ findings = st.builds(PositiveFinding, st.just(Share.UNKNOWN), reason=st.text()) 
 )
 
 
-@pytest.mark.thin(4)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.kind)
 @settings(max_examples=15, phases=[Phase.generate])
 @given(st.data())

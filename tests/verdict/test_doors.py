@@ -106,7 +106,7 @@ def test_pages_tell_the_same(damped, numbers):
         )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_shipped_tables_tell_the_same(damped):
     for n in (2, 3):
@@ -164,6 +164,7 @@ def test_foster_in_a_file_of_models():
     assert (verdict.relation, verdict.evidence.formula) == ("indistinguishable", "Foster theorem")
 
 
+@pytest.mark.full
 def test_a_bound_of_a_mixed_list_counts_both_parts():
     chains = [entry(chain) for chain in Family(3)]
     engine = Engine()

@@ -61,6 +61,7 @@ def assert_one_answer(n_masses, damped, i, j):
         assert len(answers - {"unknown", "None"}) <= 1, pair
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_three_masses_in_part(damped):
     for i, j in list(combinations(range(1, 12), 2))[::11]:
@@ -83,6 +84,7 @@ def test_drawn_pairs_of_four_masses(damped, drawn):
         assert_one_answer(4, damped, i, j)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("domain", [Domain.COMPLEX, Domain.POSITIVE])
 @pytest.mark.parametrize(("n_masses", "damped"), [(2, False), (2, True), (3, False)])
 def test_levels_of_parameters(n_masses, damped, domain):

@@ -124,6 +124,7 @@ def test_the_refusal_is_one_sentence(case: str) -> None:
     )
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "case", [c for c in CASES if c not in ("state space", "transfer functions")]
 )
@@ -214,6 +215,7 @@ ENTRIES: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("name", ENTRIES)
 def test_files_of_models_are_refused_likewise(name: str, tmp_path: Path) -> None:
     path = tmp_path / "f.json"

@@ -24,6 +24,7 @@ def sentences(file: dict[str, Any]) -> str:
     return file["sentence"] + file["over_complex"].get("sentence", "")
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("file", FILES, ids=lambda file: f"{file['left']} and {file['right']}")
 def test_a_file_of_0_3_0_holds(file: dict[str, Any]) -> None:
     assert (file["format"], file["program"]) == (OLDER, "0.3.0")

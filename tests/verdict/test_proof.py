@@ -74,6 +74,7 @@ def test_proven_ranks_are_the_sampled_ones(n, damped):
         assert not rank_is_at_most(chain.structure, (), found - 1, 20.0)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "model", [3, *(pytest.param(i, marks=pytest.mark.slow) for i in (1, 7, 9))]
 )

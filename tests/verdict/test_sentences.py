@@ -25,6 +25,7 @@ from disting.verdict.result import Verdict
 SURE = re.compile(r"(Proven( \([^)]+\))?|Probability of error at most 2\^-\d{3})\.$")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("n", [2, 3, 4])
 def test_a_sentence_says_models_domain_reason_and_certainty(n, damped):
@@ -48,6 +49,7 @@ def test_what_is_not_the_same_of_both_is_said_of_each():
     assert measured.startswith("2:1 and 2:2, damped, acceleration, measured as it is and with ")
 
 
+@pytest.mark.full
 def test_general_models_are_no_machines():
     one = Model.from_transfer_function("a", "(s + b)*(s + c)", name="tank")
     other = Model.from_transfer_function("d", "s**2 + e*s + f", name="circuit")
@@ -87,6 +89,7 @@ def test_fosters_theorem_leaves_special_values_out_because_it_must():
         assert degrees(family[1], alike | values) == (4, 4), k
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("i", "j", "why"), [(1, 11, "duality theorem"), (2, 5, "symmetry")])
 def test_where_nothing_is_left_out_nothing_is_said(i, j, why):
     """Duality and symmetry carry over every positive choice, equal elements among them."""

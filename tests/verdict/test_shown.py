@@ -29,6 +29,7 @@ def fall(chain):
     return -20 * math.log10(at[1] / at[0])
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n", "damped"), SIZES)
 def test_the_steeper_curve_is_steeper(n, damped):
     family, told = Family(n, damped=damped), 0

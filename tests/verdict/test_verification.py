@@ -30,6 +30,7 @@ KINDS = {
 }
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_was_decided_holds(kind: str) -> None:
     left, right, view = KINDS[kind]

@@ -164,7 +164,7 @@ def test_who_lies_and_writes_all_that_is_derived_anew_is_found_out(name: str) ->
 SYMMETRIC = ("measured: renaming", "measured: theorem", "general: free-choice", "general: theorem")
 
 
-@pytest.mark.thin(6)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("name", [name for name in CASES if name not in SYMMETRIC])
 def test_models_that_change_places_with_their_names_are_found_out(name: str) -> None:
     data = told(name)
@@ -204,7 +204,7 @@ def test_who_alters_evidence_and_writes_all_that_is_derived_anew_is_found_out(
     assert not believed(told(name), *free.split())
 
 
-@pytest.mark.thin(6)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "lie",
     [

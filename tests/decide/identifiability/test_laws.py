@@ -69,6 +69,7 @@ def test_the_basis_has_as_many_combinations_as_parameters_can_be_determined(chai
     assert {c.text for c in found.singles} <= set(found.combinations)
 
 
+@pytest.mark.full
 def test_a_family_at_once_is_each_model_alone():
     family = Family(3, damped=True)
     assert identifiabilities(family) == [identifiability(chain) for chain in family]

@@ -29,14 +29,14 @@ def marked(cases):
     return [pytest.param(*case, marks=pytest.mark.slow) if case in LONG else case for case in cases]
 
 
-@pytest.mark.thin(5)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n_masses", "damped", "number"), marked(SMALL))
 def test_number_of_solutions_modulo_a_prime(n_masses, damped, number):
     chain = Family(n_masses, damped)[number]
     assert solutions(chain) == identifiability(chain).most
 
 
-@pytest.mark.thin(5)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n_masses", "damped", "number"), [case for case in SMALL if case[:2] != (3, True)]
 )
@@ -88,6 +88,7 @@ def test_combinations_are_constant_along_the_symbolic_kernel(n_masses, damped):
             )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_combinations_are_independent(damped):
     for chain in Family(3, damped):

@@ -284,6 +284,7 @@ def test_twins():
     assert twins(lagging) == (lagging,)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_inclusion_is_transitive_across_sizes(damped):
     """Through all sizes, with the inclusions and equalities of one size: what follows is never

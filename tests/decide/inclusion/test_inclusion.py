@@ -323,6 +323,7 @@ def test_a_lag_on_one_side_is_no_refutation():
     assert by_relative_degrees(mixed, replace(mixed, lag=True)) is not None
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
 def test_no_inclusion_of_small_classes_is_unknown(n, damped):
     assert all(inclusions(a, b).closure.is_known for a, b in unequal(n, damped))
@@ -412,6 +413,7 @@ def test_equal_ranks_are_left_to_the_verdict():
         inclusions(family[0], family[5])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False)])
 def test_inclusion_is_transitive(n, damped):
     """A in B and B in (or equal to) C: no finding may say that A does not lie even in the

@@ -186,5 +186,6 @@ def test_models_come_near_where_dimensions_add_up(small, large, damped):
     assert nearest(*chains) < NEAR
 
 
+@pytest.mark.full
 def test_models_do_not_come_near_where_zeros_are_missing():
     assert nearest(Family(2, damped=False)[1], Family(3, damped=False)[3], tries=2) > 0.1

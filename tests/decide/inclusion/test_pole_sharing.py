@@ -26,6 +26,7 @@ def pair(small, large, damped=False):
     return canonical(Family(3, damped)[small]).chain, canonical(Family(4, damped)[large]).chain
 
 
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("small", "zeros", "grounded", "is_limit"),
     [
@@ -65,7 +66,7 @@ def test_against_groebner_bases(small, zeros, grounded, is_limit):
     assert (excluding_points(*chains, "oracle") == ()) == is_limit
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_no_limit_is_refuted(damped):
     chains = [canonical(c).chain for n in (1, 2, 3) for c in Family(n, damped)]
@@ -95,6 +96,7 @@ def test_one_point_is_a_proof_and_is_checked_again():
     )
 
 
+@pytest.mark.full
 def test_an_equation_of_the_grounded_row_refutes_with_a_bound():
     small, large = pair(3, 14, damped=True)
     points = excluding_points(small, large, "several")
@@ -135,6 +137,7 @@ def test_the_equation_of_two_grounded_masses_by_hand():
     assert found.modulus == prime("hand") and equation_safety(Row(2, True, 1, 1, True)) >= 45
 
 
+@pytest.mark.full
 def test_equations_hold_in_other_models_and_not_elsewhere():
     row = Row(2, True, 2, 2, True)
     found = row_equation(row, "models")
@@ -148,6 +151,7 @@ def test_equations_hold_in_other_models_and_not_elsewhere():
     assert len(found.monomials[0]) == 8
 
 
+@pytest.mark.full
 def test_rows_with_any_coefficients_have_no_equation():
     assert row_equation(Row(1, True, 1, 1, True), "none") is None
     assert row_equation(Row(2, True, 1, 2, True), "none") is None

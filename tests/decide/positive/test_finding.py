@@ -71,6 +71,7 @@ def agrees(given, other, found, points):
             assert {truth, equivalent(given, point, other)} != {Answer.YES, Answer.NO}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "damped"), [p if p[0] < 5 else pytest.param(*p, marks=pytest.mark.slow) for p in SHARES]
 )
@@ -86,7 +87,7 @@ def test_catalogues_have_no_open_pair(n, damped):
     assert shares == SHARES[n, damped]
 
 
-@pytest.mark.thin(3)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     ("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 8, 3), (5, 18, 14), (5, 64, 59), (5, 64, 69)]
 )

@@ -31,7 +31,7 @@ def count(n, g, a, b):
     return comb(n - 1, g) * (comb(g - 1, a - 1) if g else 1) * comb(n - g - 1, b - g - 1)
 
 
-@pytest.mark.thin(6)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(("n", "g", "a", "b"), CASES + LARGE)
 def test_all_solutions_are_positive(n, g, a, b):
     other = Chain(n, g, a, b, a, b, damped=False)

@@ -87,6 +87,7 @@ def test_complete_to_six_masses_and_always_for_neighbours():
                     assert known.lower == known.upper
 
 
+@pytest.mark.full
 def test_one_zero_a_gap_at_most_is_always_possible():
     """So two rows with the same distance between the ports always have words in common."""
     for n in range(2, 10):
@@ -100,7 +101,7 @@ def test_first_row_with_an_open_word():
     assert known.upper - known.lower == {(0, 0, 2, 2, 0, 0)}
 
 
-@pytest.mark.thin(2)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("at_wall", [False, True])
 @pytest.mark.parametrize(
     ("n", "a", "b"),

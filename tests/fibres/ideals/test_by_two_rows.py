@@ -115,6 +115,7 @@ def test_roots_in_pairs_are_not_inseparable():
     assert _is_inseparable(model, 2, "test") and not _is_inseparable(model, 1, "test")
 
 
+@pytest.mark.full
 def test_markov_parameters_agree_with_sympy():
     """The free pair at one end has h_3 = -d/m1^2; F - c/s^2 of ports two masses apart has h_3 =
     0.
@@ -165,6 +166,7 @@ def agrees_with_the_synthesis(n, damped):
     return refuted
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)]
 )

@@ -43,6 +43,7 @@ def test_leading_monomials_are_those_of_sympy(generators):
     )
 
 
+@pytest.mark.full
 @given(
     st.lists(polynomials(2), min_size=2, max_size=4),
     st.tuples(st.integers(1, 99), st.integers(1, 99)),

@@ -34,7 +34,7 @@ def test_a_result():
     assert (ended.end, ended.value, ended.reason) == (End.DONE, 42, "")
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("task", "seconds", "end", "detail"),
     [

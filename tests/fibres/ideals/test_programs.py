@@ -20,13 +20,14 @@ def pair(number):
     return [normalise(Family(3, True)[k].structure) for k in (1, number)]
 
 
-@pytest.mark.thin(2)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("tangent", [True, False])
 @pytest.mark.parametrize(("number", "expected"), CASES)
 def test_over_the_rationals(number, expected, tangent):
     assert fibre_over_rationals(*pair(number), POINT, tangent, LONG) == (expected, "")
 
 
+@pytest.mark.full
 def test_a_limit_over_the_rationals_is_no_answer():
     models = [normalise(Family(4, True)[k].structure) for k in (8, 19)]
     found, why = fibre_over_rationals(*models, list(range(2, 12)), True, 1.0)
@@ -64,6 +65,7 @@ def script(monkeypatch, folder, body):
     monkeypatch.setenv("PATH", f"{folder}:/usr/bin:/bin")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("body", "seconds", "expected"),
     [

@@ -77,6 +77,7 @@ def test_constants_are_allowed():
     check(A - 5, (sp.Integer(5), X), (X,), (A, B))
 
 
+@pytest.mark.full
 @given(
     st.lists(
         st.builds(PolynomialBound, st.integers(1, 6), st.floats(0, 40)), min_size=2, max_size=12

@@ -84,7 +84,7 @@ def unknown(kind, i, found, ports):
     return (damper + (found.get(("b", i + 1), 0) if left is None else 0)) / near
 
 
-@pytest.mark.thin(5)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize(
     "name", ["2:2+b1", "3:2+b1+b3", "3:3+b2", "3:6+b1+b3", "3:8+b1+b2", "4:6+b4", "4:18+b2+b4"]

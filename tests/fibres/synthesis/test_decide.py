@@ -41,6 +41,7 @@ def test_agrees_with_the_conditions_on_pairs_of_equal_rank(n: int, damped: bool)
         assert decide(c.family[i], c.family[j]).membership is AGREES[verdict.relation], (i, j)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), list(OPEN_MEMBERS))
 def test_decides_every_open_pair(n: int, damped: bool) -> None:
     c = catalog(n, damped=damped)

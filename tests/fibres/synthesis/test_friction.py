@@ -82,7 +82,7 @@ def determinant(matrix: list[list[fmpq_poly]]) -> fmpq_poly:
     )
 
 
-@pytest.mark.thin(3)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "damped", "lag"), [(2, True, False), (2, False, False), (2, True, True), (3, True, False)]
 )
@@ -156,7 +156,7 @@ def test_solutions_have_the_receptance_judged_by_plain_determinants(chain: Chain
         assert abs(int(ratio.p) / int(ratio.q) - 1) < 1e-9
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("chain", "count"),
     [
@@ -177,7 +177,7 @@ def test_numbers_of_solutions(chain: Chain, count: int) -> None:
     )
 
 
-@pytest.mark.thin(3)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "chain",
     [

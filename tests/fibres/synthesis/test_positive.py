@@ -28,6 +28,7 @@ def theorem_pairs(n):
     ]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [2, 3, 4, pytest.param(5, marks=pytest.mark.slow)])
 def test_equivalents_of_the_theorems_are_found_positive(n):
     """Where each row's ports are at most neighbours all members are tried; farther apart only
@@ -44,7 +45,7 @@ def distance(chain):
     return max(row.distance for row in rows_of(canonical(chain).chain.structure))
 
 
-@pytest.mark.thin(3)
+@pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "n",
     [2, 3, 4, 5, pytest.param(6, marks=pytest.mark.slow), pytest.param(8, marks=pytest.mark.slow)],
@@ -100,6 +101,7 @@ def test_parts_need_the_same_gap_and_no_damping():
     assert not are_same_by_rows(Family(4, damped=True)[14], Family(4, damped=True)[20])
 
 
+@pytest.mark.full
 def test_some_positive_models_have_an_equivalent_and_others_have_none():
     """4-mass undamped models 2 and 6: every 2 has one in 6, about a quarter of the 6 has none
     in 2.

@@ -60,6 +60,7 @@ def test_columns_sort_both_ways_infinite_numbers_last(opened, selection: Selecti
     assert column(1) == list(range(1, len(selection.candidates) + 1))
 
 
+@pytest.mark.full
 def test_figures_follow_light_and_dark(opened) -> None:  # type: ignore[no-untyped-def]
     def paper() -> str:
         return str(opened.evaluate("getComputedStyle(document.querySelector('.plot path')).fill"))

@@ -50,6 +50,7 @@ def test_the_drive_is_found(selection: Selection) -> None:
     assert selection.selected.chain == DRIVE
 
 
+@pytest.mark.full
 def test_files_are_what_they_claim(figure: FigureFiles) -> None:
     assert ElementTree.fromstring(figure.svg).tag == "{http://www.w3.org/2000/svg}svg"
     assert Image.open(BytesIO(figure.png)).width > 1500

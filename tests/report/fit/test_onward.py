@@ -73,6 +73,7 @@ def both(selection: Selection) -> Selection:
     return replace(selection, members=(first, replace(first, candidate=other)))
 
 
+@pytest.mark.full
 def test_each_structure_has_its_commands(both: Selection) -> None:
     first, second = both.members
     compare, equivalents = (step.command for step in next_steps(both))

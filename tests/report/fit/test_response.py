@@ -100,6 +100,7 @@ def test_bars_of_many_lines_are_thinned_over_the_whole_axis(omega: np.ndarray) -
     assert at[0] == 0 and at[-1] == len(omega) - 1 and np.all(np.diff(at) > 0)
 
 
+@pytest.mark.full
 def test_residuals_are_those_of_data_and_model(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse
 ) -> None:
@@ -131,6 +132,7 @@ def test_what_the_figures_show_is_said_with_sizes(
     assert "Under the response" not in above
 
 
+@pytest.mark.full
 def test_without_scatter_no_bars_are_claimed(plain: Selection) -> None:
     above, below = (" ".join(said) for said in bands_in_words(plain, plain.test))
     assert "Error bars" not in above and "from neighbouring lines" in below
@@ -149,6 +151,7 @@ def test_a_model_that_misses_is_told_by_factors_and_its_ranges_are_marked(
     assert "var(--force)" in found.inline and "Residuals outside the scatter" in found.title
 
 
+@pytest.mark.full
 def test_distortion_lies_under_the_response(multisine: Selection, panel: Axes) -> None:
     (s,) = series_of(multisine.described, multisine.task, multisine.test, None)
     panel.set_xscale("log")
@@ -186,6 +189,7 @@ def test_many_levels_become_root_mean_squares_of_near_ones(count: int) -> None:
     assert hertz[0] <= at[0] and at[-1] <= hertz[-1] and np.all(np.diff(at) > 0)
 
 
+@pytest.mark.full
 def test_the_fit_in_percent_is_said_and_exported(
     selection: Selection, plain: Selection, train: FrequencyResponse, test: FrequencyResponse
 ) -> None:
