@@ -976,6 +976,8 @@ def inequality(pair, e):
     other sign, or none, in the other one: expanded here.
     """
     given, other = pair[:2] if e["left_given"] else pair[1::-1]
+    if e["domain"] != "positive":
+        return result(False, "signs of terms are those at positive parameters")
     signs = []
     for m in (given, other):
         num, den = symbolic(m)
@@ -1093,7 +1095,8 @@ def inner_of(pair, e):
         return inner
     likes = e["kind"] == "replaced" and a.order == b.order and pair.left.order == pair.right.order
     if likes and replaceable(pair.left, a) and replaceable(pair.right, b):
-        return inner
+        larger = (e["left_larger"], e["right_larger"]) != (False, False)
+        return result(False, "neither of these is larger") if larger else inner
     return searched("the networks that stand for these are not derived again")
 
 

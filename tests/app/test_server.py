@@ -41,6 +41,14 @@ def is_there(pid: int) -> bool:
     return True
 
 
+def all_end(pids: set[int]) -> bool:
+    """Return True once none of the processes is there; they have half a minute."""
+    until = time.monotonic() + 30
+    while time.monotonic() < until and any(map(is_there, pids)):
+        time.sleep(0.1)
+    return not any(map(is_there, pids))
+
+
 def test_the_page_and_its_parts_are_served_with_their_policy(app):
     status, headers, body = app.ask("GET", "/")
     assert status == 200 and b'role="tablist"' in body
@@ -203,7 +211,7 @@ def test_a_killed_worker_is_replaced_and_nothing_stays_behind(tmp_path):
         with pytest.raises(AssertionError, match="open in another"), serving(tmp_path / "project"):
             pass
     assert own.process.returncode == 0
-    assert not [worker for worker in left if is_there(worker)]
+    assert all_end(left)
 
 
 def test_a_killed_server_loses_no_finished_fit_and_no_worker_outlives_it(tmp_path):
@@ -217,10 +225,7 @@ def test_a_killed_server_loses_no_finished_fit_and_no_worker_outlives_it(tmp_pat
         below = children(own.process.pid)
         own.process.kill()
         own.process.wait()
-    until = time.monotonic() + 30
-    while time.monotonic() < until and any(map(is_there, below)):
-        time.sleep(0.1)
-    assert not [worker for worker in below if is_there(worker)]
+    assert all_end(below)
     with serving(tmp_path / "project") as again:
         assert [found["fit"] for found in again.call("fits", {})[1]["fits"]] == [first]
         content = again.call("open", {"page": "data"})[1]["content"]
