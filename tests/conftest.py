@@ -4,13 +4,18 @@ HYPOTHESIS_PROFILE=fresh draws new ones."""
 
 import gc
 import os
+import shutil
 import sys
 from collections import defaultdict
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
 DEARER = "slow", "bench", "attack"
+# without windows, where it is there: the same engine at four fifths of the work
+PROGRAMS = "chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"
+CHROMIUM = next(filter(None, map(shutil.which, PROGRAMS)), None)
 os.environ["DISTING_CACHE"] = "off"
 os.environ["DISTING_PROGRESS"] = "off"
 # workers, the processes that tests start, and the next run share compiled modules; else each
@@ -93,3 +98,17 @@ def pytest_terminal_summary(terminalreporter):
             terminalreporter.section(title)
         for line in lines:
             terminalreporter.write_line(line)
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """The one browser of a process: a second Playwright beside it would not start."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+    with playwright.sync_playwright() as p:
+        if not CHROMIUM and not Path(p.chromium.executable_path).exists():
+            pytest.skip("no Chromium found, neither the system's nor Playwright's own")
+        chromium = p.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"]
+        )
+        yield chromium
+        chromium.close()

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import pytest
 
 from tests.app.served import Served, bench_csv, serving
-from tests.report.conftest import browser as browser
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,7 @@ from statistics import median
 import pytest
 
 from tests.bench.measure import table
-from tests.report.conftest import CHROMIUM
+from tests.conftest import CHROMIUM
 from tests.report.page_kinds import SIGHTS, kinds, write_all
 
 pytestmark = pytest.mark.bench
