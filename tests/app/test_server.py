@@ -124,6 +124,7 @@ def test_a_fit_reports_every_candidate_and_leaves_a_readable_folder(app):
     assert app.call("fits", {})[1]["fits"][0]["fit"] == answer["fit"]
 
 
+@pytest.mark.slow
 def test_the_command_that_the_page_shows_gives_the_same_fit(app):
     answer = app.run("fit", SMALL | {"masses": [1]})["answer"]
     words = answer["command"].split()
@@ -132,6 +133,7 @@ def test_the_command_that_the_page_shows_gives_the_same_fit(app):
     assert json.loads(done.stdout)["answer"] == answer["answer"]
 
 
+@pytest.mark.slow
 def test_a_fit_that_assumes_the_wrong_quantity_explains_nothing(app):
     answer = app.run("fit", {"measurements": [PLAIN], "masses": [1]})["answer"]
     assert not answer["explains"]

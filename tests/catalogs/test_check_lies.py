@@ -132,13 +132,19 @@ def test_no_lie_is_told_as_checked(check, name):
     assert list(accepted(check, name, 1, 0.1))[:5] == []
 
 
+LARGE = [
+    ("networks-circuits-5", 3), ("networks-cells-4", 3), ("networks-machines-3-damped", 2),
+    ("networks-trees-4", 2), ("networks-compartments-3", 2),
+]  # fmt: skip
+
+
 @pytest.mark.full
 @pytest.mark.parametrize(("name", "each"), [
     ("chains-3-undamped", 10), ("chains-3-damped", 10), ("chains-4-undamped", 3),
     ("chains-4-damped", 3), ("sizes-damped", 5), ("sizes-undamped", 5), ("settled-dampers", 2),
     ("networks-machines-2", 5), ("networks-machines-2-damped", 5), ("networks-compartments-2", 10),
-    ("networks-circuits-4", 5), ("networks-circuits-5", 3), ("networks-cells-4", 3),
-    ("networks-machines-3-damped", 2), ("networks-trees-4", 2), ("networks-compartments-3", 2),
+    ("networks-circuits-4", 5),
+    *[pytest.param(name, each, marks=pytest.mark.slow) for name, each in LARGE],
 ])  # fmt: skip
 def test_no_lie_in_any_kind_is_told_as_checked(check, name, each):
     assert list(accepted(check, name, each))[:5] == []

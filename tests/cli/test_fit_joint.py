@@ -127,7 +127,7 @@ def test_experiments_say_what_is_locked_and_what_is_added(bench):
         np.testing.assert_array_equal(one.measured.G, same.G)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_two_sensors_are_fitted_together(bench):
     """The drive is found, each response explained."""
     found, said = fitted(bench["both"], "--sensor", "1,2")
@@ -139,7 +139,7 @@ def test_two_sensors_are_fitted_together(bench):
     assert "\n  sensor 2: chi2 per line " in said
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_what_is_zero_teaches_nothing_and_the_output_says_so(bench):
     """A locked mass carries the force."""
     found, said = fitted(bench["motor"], "--experiment", f"{bench['locked']}:lock=1")

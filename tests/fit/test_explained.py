@@ -354,7 +354,7 @@ def test_what_is_missed_is_named_by_its_frequencies():
     )
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_what_the_paper_does_not_admit_is_named_where_it_fits_better():
     """A parameter at its bound is not admissible; one that is given does not count. By default it
     stays and is marked.

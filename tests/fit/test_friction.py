@@ -123,6 +123,7 @@ def test_a_model_with_too_few_masses_is_not_explained_by_distortion():
     assert found.explanation.level is Level.NOT and found.explanation.chi2 > 30
 
 
+@pytest.mark.slow
 def test_two_amplitudes_that_differ_are_reported_with_their_levels():
     found = amplitudes(Machine(1, coulomb=0.4))
     line = first_lines(found)[0]

@@ -201,7 +201,7 @@ def test_an_interval_holds_the_value_where_parameters_run_away_together():
         assert low <= values[name] <= high, name
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_intervals_hold_every_valley_that_the_data_do_not_exclude():
     """Noise makes another valley than the true one the deepest, by 11 in twice the likelihood."""
     machine = bench_drive(4, 9)

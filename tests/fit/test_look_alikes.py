@@ -243,7 +243,7 @@ def test_fit_of_a_branch_names_the_branch(tmp_path):
     assert np.array(ends) == pytest.approx(np.array([(0.8e-3, 900), (1e-3, 300)]), rel=0.02)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_damped_elastic_base_is_fitted_as_a_candidate(tmp_path):
     """A chain does not explain it; the base does, with its values, and the text names the option; on
     the base it is selected.

@@ -74,6 +74,7 @@ def test_the_page_asks_for_it_first_and_gives_no_values(speed):
         assert word not in page
 
 
+@pytest.mark.slow
 def test_the_command_asks_for_it_and_its_file_leads_nowhere(tmp_path):
     """Status 1, the same sentence on the page and in JSON, and no value by any door."""
     path, file = file_of(tmp_path / "a.csv", "velocity"), tmp_path / "fit.json"
@@ -99,6 +100,7 @@ def test_the_command_asks_for_it_and_its_file_leads_nowhere(tmp_path):
     assert named.returncode == 0 and "explains this data" in named.stdout
 
 
+@pytest.mark.slow
 def test_several_responses_and_another_cost_ask_for_it_too(tmp_path):
     """Of two sensors, and with the cost of the paper, the same question."""
     measured = read(file_of(tmp_path / "a.csv", "velocity"))

@@ -135,7 +135,7 @@ def test_a_file_of_the_fit_holds_the_statements(left):
     )  # collocated velocity without dead time: as much as one likes
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_draws_fit_the_data_where_a_parameter_is_not_determined():
     """Along a valley that bends the covariance leads away from the data, by a hundred times J."""
     machine = bench_drive(3, 9)

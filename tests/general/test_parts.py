@@ -94,6 +94,7 @@ def told():
     return left, right, by_parts(left, right, Settings())
 
 
+@pytest.mark.slow
 def test_parts_tell_what_a_search_does_not(told):
     left, right, found = told
     evidence = found.evidence

@@ -79,8 +79,11 @@ def test_derivatives_are_those_of_the_response():
     ("delay", "lag", "true"),
     [
         (1, None, Chain(2, damped=True, ground_dampers=(1,), dead_time=True)),
-        (0, None, DRIVE),
-        (1, 5e-4, Chain(2, damped=True, ground_dampers=(1,), dead_time=True, lag=True)),
+        pytest.param(0, None, DRIVE, marks=pytest.mark.slow),
+        pytest.param(
+            *(1, 5e-4, Chain(2, damped=True, ground_dampers=(1,), dead_time=True, lag=True)),
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_the_actuator_of_a_digital_drive_is_found_through_its_hold(delay, lag, true):

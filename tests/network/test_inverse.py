@@ -61,7 +61,7 @@ def asked():
     return left, right, by_inverse(left, right, Settings())
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_the_other_pair_says_the_same(asked):
     _, _, found = asked
     assert found.outcome is Outcome.SOMETIMES and isinstance(found.evidence, AtInverse)

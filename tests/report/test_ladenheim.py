@@ -58,7 +58,7 @@ def test_classes_fall_apart_where_one_network_reaches_lower_degrees(four: Listin
     assert len(split) == 4 and all(c.exact for c in found)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_the_page_tells_it(visit, four: Listing) -> None:  # type: ignore[no-untyped-def]
     tab = visit("ladenheim.html")
     assert "59 are canonical" in tab.inner_text("main")

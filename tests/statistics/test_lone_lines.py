@@ -39,7 +39,13 @@ def disturbed(size, lines, seed=3):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize(("size", "lines"), [(12.0, (62, 63)), (20.0, (70,)), (20.0, (62, 63))])
+@pytest.mark.parametrize(
+    ("size", "lines"),
+    [
+        (12.0, (62, 63)),
+        *[pytest.param(20.0, at, marks=pytest.mark.slow) for at in ((70,), (62, 63))],
+    ],
+)
 def test_a_disturbed_line_makes_no_mass(size, lines):
     found = select(disturbed(size, lines), TWO_AND_THREE)
     assert found.selected.chain.n_masses == 2
@@ -64,7 +70,7 @@ def test_a_small_mass_that_several_lines_see_is_found(seed):
     assert found.explanation.level is Level.EXPLAINS
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_a_mass_of_a_millionth_neither_is_selected_nor_excludes():
     path = measured_data("../cases/gear_0_A.csv")
     found = select(read(path), figure_1([2, 3]))

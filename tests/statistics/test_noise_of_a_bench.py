@@ -250,7 +250,7 @@ def test_on_test_data_a_second_fit_takes_away_what_bends(left, excluded):
     assert found.keys() == ({chains[0]} if excluded else set())
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_a_truth_over_a_long_valley_is_kept_on_test_data():
     """Fitted to one record it lies on the far side, and tangents do not reach the near one."""
     machine = drive(3, 0)

@@ -78,6 +78,7 @@ def test_no_network_explains(tmp_path):
     assert "<h1>No network explains the data</h1>" in text and "misses the data at" in text
 
 
+@pytest.mark.slow
 def test_the_band_of_the_line_is_the_scatter_of_refitted_lines(selection):
     """The fits of 40 other noises scatter by the standard errors that the first one states."""
     line = network_line(selection.fits[0], selection, 0)
