@@ -223,6 +223,24 @@ def test_two_models_and_their_motion(visit):
         tab.locator("#pair-verdict .trouble, #relation").first.wait_for()
 
 
+@pytest.mark.parametrize(("page", "field"), [("compare", "#compare-left"), ("machine", "#machine-text")])
+def test_what_is_written_before_the_saved_page_comes_stays(visit, page, field):
+    """The page asks for what was shown last; it came late and replaced what somebody wrote."""
+    with visit("data") as tab:
+        held = []
+        tab.route("**/api/open", lambda route: held.append(route))
+        tab.goto(f"{tab.url.partition('#')[0]}?#{page}")
+        tab.reload()
+        tab.fill(field, "3:1")
+        while not held:
+            tab.wait_for_timeout(50)
+        for route in held:
+            route.continue_()
+        tab.unroute("**/api/open")
+        tab.wait_for_timeout(1000)
+        assert tab.input_value(field) == "3:1"
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 390])
 def test_pages_have_no_barriers_and_fit_their_window(visit, width, scheme):
