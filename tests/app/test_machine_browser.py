@@ -223,7 +223,9 @@ def test_two_models_and_their_motion(visit):
         tab.locator("#pair-verdict .trouble, #relation").first.wait_for()
 
 
-@pytest.mark.parametrize(("page", "field"), [("compare", "#compare-left"), ("machine", "#machine-text")])
+@pytest.mark.parametrize(
+    ("page", "field"), [("compare", "#compare-left"), ("machine", "#machine-text")]
+)
 def test_what_is_written_before_the_saved_page_comes_stays(visit, page, field):
     """The page asks for what was shown last; it came late and replaced what somebody wrote."""
     with visit("data") as tab:
