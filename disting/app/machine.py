@@ -32,6 +32,7 @@ from disting.verdict.engine import Engine
 from disting.verdict.identifiable import Identified
 from disting.verdict.next_experiments import menu_for
 from disting.verdict.next_words import AnyMenu, anywhere, conclusion, group_in_words
+from disting.verdict.result import Relation
 
 EXAMPLE = "write a machine such as 1=2=3; F1; S3, or a circuit such as R0-p(R1,C1)"
 # values that are shown first, in kg, N/m, N s/m, ohm, H, F, ..: no two springs with one ratio k/d,
@@ -191,11 +192,14 @@ def _row(model: Chain | AnyModel, found: Lookalikes, request: Json) -> Json:
 
 def sentence_of(found: Lookalikes) -> str:
     """Return the result of a look-up in words."""
-    rest, count = found.size - 1, len(found.others)
-    if not count:
+    rest, relations = found.size - 1, list(found.others.values())
+    undecided = relations.count(Relation.UNDECIDED)
+    count = len(relations) - undecided
+    if not relations:
         return f"All other {rest} models are distinguishable from it."
     are = "is" if count == 1 else "are"
-    return f"{count} of {rest} other models {are} not always distinguishable from it."
+    more = f"; {undecided} more undecided" if undecided else ""
+    return f"{count} of {rest} other models {are} not always distinguishable from it{more}."
 
 
 def command_for_alike(model: Chain | AnyModel, found: Lookalikes, request: Json) -> str:

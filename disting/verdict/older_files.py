@@ -11,7 +11,7 @@ OLDER = "disting verdict 1"
 
 _PHRASES = (
     # now, in version 0.3.0
-    ("no method decides them", "nothing settles them"),
+    ("none of the available methods decides them", "nothing settles them"),
     (
         "are driving-point functions of the same order with two kinds of elements (or with parts"
         " like them): by Foster's and Cauer's theorems each realises all such functions with"
@@ -61,8 +61,8 @@ _NOT_SAID = re.compile(r" It is not decided whether all .+? have an equivalent i
 def in_older_words(verdict: dict[str, Any]) -> dict[str, Any]:
     """The plain data of a verdict, its sentences in the words of version 0.3.0, without primes.
 
-    >>> in_older_words({"sentence": "A is B at k' = m: no method decides them."})
-    {'sentence': 'A is B at k = m: nothing settles them.'}
+    >>> in_older_words({"sentence": "A and B are the same except for k' = m."})
+    {'sentence': 'A and B are the same but for k = m.'}
     """
     return _change_sentences(verdict, _to_older_words)
 

@@ -177,7 +177,10 @@ class Verdict(NotebookTable):
         over = f" over {self.domain} parameters"
         if self.evidence is None:
             why = f" ({'; '.join(self.notes)})" if self.notes else ""
-            return f"{self.models} are undecided{over}: no method decides them{why}."
+            return (
+                f"{self.models} are undecided{over}: none of the available methods decides"
+                f" them{why}."
+            )
         depending = ", depending on their values" if self.relation is Relation.SOMETIMES else ""
         aside = ", special values aside" if self.has_exceptions else ""
         return (

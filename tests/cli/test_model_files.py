@@ -63,7 +63,7 @@ def test_a_pair_that_is_left_open_is_told_with_its_reason(tmp_path):
     path.write_text(json.dumps({"models": drives}))
     told = called("verdicts", path, "--conditions", "8-9").stdout
     assert (
-        "b1 and b3, damped, acceleration, are undecided over complex parameters: no method decides them"
+        "b1 and b3, damped, acceleration, are undecided over complex parameters: none of the available methods decides them"
         in told
     )
 

@@ -80,7 +80,7 @@ def test_an_undecided_verdict_has_no_proof():
         Verdict("a", "b", Relation.UNDECIDED, **DECIDED)
     assert (
         Verdict("a", "b", Relation.UNDECIDED).sentence
-        == "a and b are undecided over complex parameters: no method decides them."
+        == "a and b are undecided over complex parameters: none of the available methods decides them."
     )
 
 

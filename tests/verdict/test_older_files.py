@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from disting import verify
+from disting.evidence.decision import THEOREMS
 from disting.verdict.older_files import _PHRASES, OLDER
 from disting.verdict.verification import Status
 
@@ -29,10 +30,20 @@ def sentences(file: dict[str, Any]) -> str:
 def test_a_file_of_0_3_0_holds(file: dict[str, Any]) -> None:
     assert (file["format"], file["program"]) == (OLDER, "0.3.0")
     assert verify(file).status is Status.HOLDS
-    for word in ("proven", "Proven", "parameters"):
-        false = file["sentence"].replace(word, f"not {word}", 1)
-        if false != file["sentence"]:
-            assert verify(file | {"sentence": false}).status is Status.FAILS
+    false = file["sentence"].replace("parameters", "values", 1)
+    assert false != file["sentence"]
+    assert verify(file | {"sentence": false}).status is Status.FAILS
+
+
+BY_THEOREM = [file for file in FILES if file["evidence"].get("kind") == "theorem"]
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+@pytest.mark.parametrize("file", BY_THEOREM, ids=lambda file: f"{file['left']} and {file['right']}")
+def test_a_theorem_that_does_not_apply_is_no_evidence(file: dict[str, Any], name: str) -> None:
+    """A theorem is not searched for again, so that its premises are all that is checked."""
+    again = verify(file | {"evidence": file["evidence"] | {"name": name}})
+    assert again.status is (Status.HOLDS if name == file["evidence"]["name"] else Status.FAILS)
 
 
 def test_each_older_phrase_is_in_a_file() -> None:

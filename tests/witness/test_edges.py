@@ -99,7 +99,7 @@ def test_what_does_not_apply_is_not_called_abandoned(view: View) -> None:
     assert (
         verdict.sentence
         == "A1 and A8, damped, acceleration, are undecided over complex parameters:"
-        " no method decides them."
+        " none of the available methods decides them."
     )
 
 

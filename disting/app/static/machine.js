@@ -90,7 +90,7 @@ export const start = async (root, call) => {
     const same = (row?.others ?? []).filter(({ relation }) => relation === "indistinguishable").map(({ name }) => name).slice(0, MOST);
     const isGlobal = known?.levels.every(({ level }) => level === "global");
     const nothing = `${!known ? "Not known: whether all parameters can be determined was not decided." : isGlobal ? "Every parameter has one value." : "Not every parameter has one value; what would determine more is not searched for models of this kind."} ${
-      !rows ? "" : rows.rows.length ? "No listed model is known to be the same for all values." : "No catalogue lists this model: whether another one looks the same is not known."}`;
+      !rows ? "" : rows.rows.length ? "No listed model is known to be indistinguishable from it." : "No catalogue lists this model: whether another one looks the same is not known."}`;
     await showNext({ of, same, sensors: known && !isGlobal ? sensors : [], nothing }, isCurrent);
   };
   const showDetermined = (of) => (answer) => {
@@ -114,7 +114,7 @@ export const start = async (root, call) => {
       later(isCurrent, () => waitFor(found, "Values", call("values", { ...pair, values }), ({ given, sets, extent, command }) => [
         sets.length ? valuesTable(given, sets, ["this machine", "the other"]) : element("p", {}, "No values were found."), element("p", { class: "hint" }, sets.length ? `Same response; ${extent}.` : extent), commandFold(command)], isCurrent));
     return element("li", {},
-      element("p", {}, element("strong", {}, name), " ", element("span", { class: `key ${relation}`, "aria-hidden": "true" }), ` ${relation === "sometimes" ? "the same for some values" : relation === "indistinguishable" ? "the same for all values" : "not decided"}`),
+      element("p", {}, element("strong", {}, name), " ", element("span", { class: `key ${relation}`, "aria-hidden": "true" }), ` ${relation === "sometimes" ? "the same for some values" : relation === "indistinguishable" ? "indistinguishable" : "not decided"}`),
       picture(drawn), found,
       element("p", { class: "buttons" }, element("button", { type: "button", class: "plainbutton", onclick: () => askCompare(of, name) }, "Compare both"), " ", evidenceButton(call, pair)));
   };
