@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from disting.app.interface import Json, Progress
-from disting.app.project import ABOUT, fit_numbers, inside, measured, summary
+from disting.app.project import ABOUT, fit_file, fit_numbers, inside, measured, summary
 from disting.app.reading import command_words, response_of
 from disting.app.workers import Setting
 from disting.errors import InputError, short
@@ -31,6 +31,7 @@ from disting.network.families import family_of
 from disting.network.network import Network
 from disting.network.notation import network_of
 from disting.network.notation.member import FAMILY
+from disting.planning.fit_file import named_by
 from disting.report.fit import export, write_fit_report
 from disting.report.fit.network_page import write_network_report
 from disting.report.fit.sentences import first_lines
@@ -72,11 +73,14 @@ def _fit_chains(request: Json, folder: Path, work: Work) -> Json:
     first = request["measurements"][0]
     train = response_of(first["file"], first["reading"])
     test = response_of(request["test"], first["reading"]) if "test" in request else None
+    left = named_by(fit_file(request["left"])) if "left" in request else None
+    chains = left.chains if left else _chains(request)
     selection = select(
         train,
-        _chains(request, train.quantity),
+        [replace(chain, quantity=train.quantity) for chain in chains],
         test=test,
         further=[*_further(request)],
+        home=replace(left.model, quantity=train.quantity) if left else None,
         sign=SIGNS[first["reading"].get("sign", "+")],
         fix=request.get("fix"),
         bound=_ranges(request),
@@ -111,11 +115,11 @@ def _ranges(request: Json) -> dict[str, tuple[float, float]]:
     return {name: (low, high) for name, (low, high) in request.get("bound", {}).items()}
 
 
-def _chains(request: Json, quantity: Quantity) -> tuple[Chain, ...]:
-    """Candidates of the request."""
+def _chains(request: Json) -> tuple[Chain, ...]:
+    """Candidates of the request, of any quantity."""
     first = request["measurements"][0]
     sensor, force = first.get("sensor", "1"), first.get("force", "1")
-    chains = chosen_ports(request["masses"], force, sensor, 0, quantity)
+    chains = chosen_ports(request["masses"], force, sensor, 0, Quantity.ACCELERATION)
     if request.get("base"):
         if len(request["measurements"]) > 1 or (sensor, force) != ("1", "1"):
             raise InputError(
@@ -233,6 +237,8 @@ def _option_words(request: Json) -> list[str]:
 
 def _chain_words(request: Json) -> list[str]:
     """Words of the command line for the candidates."""
+    if "left" in request:
+        return ["--left", fit_file(request["left"]).as_posix()]
     first = request["measurements"][0]
     words = ["--masses", ",".join(map(str, request["masses"]))]
     words += ["--actuator", first["force"]] if first.get("force") else []

@@ -147,7 +147,7 @@ def summary(number: int) -> Json:
 
 def fit_file(number: int) -> Path:
     """Return the JSON file of a finished fit, relative to the project; raises InputError."""
-    path = inside(Path(), "fits", str(number), "fit.json")
+    path = inside(inside(Path(), "fits", str(number)), "fit.json")
     if not path.is_file():
         raise InputError(f"the project has no fit {number}")
     return path

@@ -13,6 +13,7 @@ from tests.report.barriers import barriers
 from tests.report.conftest import heard
 
 pytestmark = pytest.mark.full
+VELOCITY = {"quantity": "velocity"}
 SLOW = 240_000  # milliseconds that a fit may take on a machine with other work
 REFUSAL = re.compile(r"Failed to load resource: the server responded with a status of 422")
 DROP = """([name, text]) => {
@@ -129,7 +130,7 @@ def test_a_second_measurement_tests_the_fit_and_what_comes_after_it_is_on_the_pa
     tab.select_option("#field-quantity", "velocity")
     tab.wait_for_selector(".field.assumed", state="detached")
     drop(tab, "again.csv", bench_csv(81))
-    tab.wait_for_selector("#role")
+    is_seen(tab, "What was read: again.csv")
     tab.select_option("#role", "test")
     is_seen(tab, "It is read as the first measurement")
     assert tab.locator(".field.assumed").count() == 0
@@ -182,17 +183,21 @@ def test_the_advised_measurement_is_added_with_its_place(own, visit):
     assert own.upload("bench.csv", bench_csv())[0] == 200
     own.call(
         "save",
-        {"page": "data", "content": {"measurements": [{"file": "bench.csv", "reading": {}}]}},
+        {"page": "data", "content": {"measurements": [{"file": "bench.csv", "reading": VELOCITY}]}},
     )
     tab = visit(own)
     with tab.expect_file_chooser() as chooser:
         tab.click("text=Add this measurement (sensor=2)")
     chooser.value.set_files({"name": "second.csv", "mimeType": "text/csv", "buffer": bench_csv(81)})
-    is_seen(tab, "2. second.csv")
-    tab.wait_for_selector("#place-sensor")
+    is_seen(tab, "What was read: second.csv")
     assert tab.input_value("#place-sensor") == "2"
-    saved = own.call("open", {"page": "data"})[1]["content"]["measurements"]
-    assert saved[1] == {"file": "second.csv", "reading": {}, "sensor": "2"}
+    is_seen(tab, "only the structures that fit 1 left")
+    assert tab.locator(".masses").is_hidden()
+    saved = own.call("open", {"page": "data"})[1]["content"]
+    assert saved["measurements"][1] == {"file": "second.csv", "reading": VELOCITY, "sensor": "2"}
+    assert saved["left"] == 1
+    tab.uncheck("#left")
+    assert tab.locator(".masses").is_visible()
 
 
 def test_an_engineer_by_keyboard(own, visit):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from disting.app.fitting import _command, _option_words, _ranges, fit
+from disting.app.fitting import _chain_words, _command, _option_words, _ranges, fit
 from disting.app.workers import Setting
 from disting.errors import InputError
 
@@ -38,6 +38,17 @@ def test_a_further_measurement_is_an_experiment_if_it_is_read_alike(project):
     assert _command(request, []).endswith("--experiment 'data/b 2.csv:lock=2,column=4'")
     request = {"measurements": [FIRST, other | {"reading": {}}]}
     assert _command(request, []) == ""
+
+
+def test_what_an_earlier_fit_left_is_named_in_place_of_masses(project):
+    request = {"measurements": [FIRST], "masses": [1, 2], "left": 3}
+    with pytest.raises(InputError, match="the project has no fit 3"):
+        _chain_words(request)
+    (project / "fits" / "3").mkdir(parents=True)
+    (project / "fits" / "3" / "fit.json").touch()
+    assert _chain_words(request) == ["--left", "fits/3/fit.json"]
+    del request["left"]
+    assert _chain_words(request) == ["--masses", "1,2"]
 
 
 def test_a_range_that_ends_before_it_begins_is_refused():

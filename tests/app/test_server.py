@@ -155,6 +155,19 @@ def test_after_a_fit_its_advice_its_plan_and_another_fit_beside_it(app):
     assert app.call("two_fits", {"fits": [first, 999]})[1]["error"] == "the project has no fit 999"
 
 
+@pytest.mark.slow
+def test_a_fit_of_what_an_earlier_one_left_is_that_of_the_command(app):
+    first = app.run("fit", SMALL | {"masses": [2]})["answer"]["fit"]
+    app.upload("again.csv", bench_csv(81))
+    second = {"file": "again.csv", "reading": VELOCITY["reading"], "sensor": "1"}
+    end = app.run("fit", {"measurements": [VELOCITY, second], "masses": [1], "left": first})
+    assert end["state"] == "done", end
+    words = end["answer"]["command"].split()
+    assert words[-2:] == ["--left", f"fits/{first}/fit.json"]
+    done = subprocess.run([sys.executable, "-m", "disting", *words[1:], "--json", "-"], cwd=app.folder, capture_output=True, text=True, check=False)  # fmt: skip
+    assert json.loads(done.stdout)["answer"] == end["answer"]["answer"]
+
+
 def test_what_a_stopped_plan_leaves_is_the_fit_alone(app):
     number = app.run("fit", SMALL | {"masses": [1]})["answer"]["fit"]
     folder = app.folder / "fits" / str(number)

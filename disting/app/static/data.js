@@ -50,17 +50,20 @@ export const start = async (root, call) => {
     trouble("");
     try {
       const { name: own } = await upload(file, name);
-      state.measurements.push({ file: own, reading: {}, ...(state.measurements.length ? expected : {}) });
+      const { places = {}, left } = state.measurements.length ? expected : {};
       expected = {};
+      state.measurements.push({ file: own, reading: left ? structuredClone(state.measurements[0].reading) : {}, ...places });
+      if (left) fitting.only(left);
       chosen = state.measurements.length - 1;
       await save();
       await show();
     } catch (error) { trouble(error.message); }
   }
-  // The next file that is chosen was measured with this setup, such as sensor=2 or lock=2.
-  function addNext(setup) {
+  // The next file that is chosen was measured with this setup, such as sensor=2 or lock=2, which a fit advised: it is read
+  // as the first one, and tells apart what that fit left.
+  function addNext(setup, fit) {
     const [name, place] = setup.split("=");
-    expected = !setup ? {} : ["sensor", "force"].includes(name) ? { [name]: place } : { change: setup };
+    expected = !setup ? {} : { places: ["sensor", "force"].includes(name) ? { [name]: place } : { change: setup }, left: fit };
     picker.click();
   }
   picker.addEventListener("cancel", () => { expected = {}; });

@@ -31,11 +31,26 @@ export const fitSection = ({ call, follow, state, save, trouble, addNext, setQua
     element("input", { id: name, type: "text", value: state[name] ?? "", placeholder: example, maxlength: 300, spellcheck: "false", autocomplete: "off", onchange: (event) => { state[name] = event.target.value.trim(); save(); } }));
   const more = element("details", { open: ["fix", "bound", "controller"].some((name) => state[name]) }, element("summary", {}, "Known values, ranges, controller"), element("div", { class: "fields" },
     option("fix", "Known values (SI units; Td: dead time)", EXAMPLES.fix), option("bound", "Ranges of parameters", EXAMPLES.bound), option("controller", "Controller: its stability margins", "P=2,I=30")));
-  const chains = element("div", {}, masses, element("p", {}, damped, element("label", { for: "damped" }, " springs with dampers beside them ")), element("p", {}, base, element("label", { for: "base" }, " also on an elastic base")), more);
+  const left = element("input", { type: "checkbox", id: "left", onchange: () => only(undefined) }), leftText = element("label", { for: "left" });
+  const onlyLeft = element("p", {}, left, " ", leftText);
+  const every = element("div", {}, masses, element("p", {}, damped, element("label", { for: "damped" }, " springs with dampers beside them ")), element("p", {}, base, element("label", { for: "base" }, " also on an elastic base")));
+  const chains = element("div", {}, onlyLeft, every, more);
   const own = element("p", { class: "field wide" }, element("label", { for: "models" }, "Circuits or machines, one a line: by their text, or a family such as cells-4"), models);
   const sort = element("fieldset", { class: "segments" }, [["chains", "Chains of masses"], ["models", "Circuits and own models"]].map(([value, text]) => element("label", {},
     element("input", { type: "radio", name: "sort", value, checked: (state.sort ?? "chains") === value, onchange: () => { state.sort = value; sorted(); save(); } }), element("span", {}, text))));
-  const sorted = () => { chains.hidden = state.sort === "models"; own.hidden = !chains.hidden; };
+  const sorted = () => {
+    chains.hidden = state.sort === "models";
+    own.hidden = !chains.hidden;
+    onlyLeft.hidden = !state.left;
+    every.hidden = left.checked = Boolean(state.left);
+    leftText.textContent = `only the structures that fit ${state.left} left; places are masses of the one that it selected`;
+  };
+  // Fit only what an earlier fit left; undefined: all candidates.
+  function only(fit) {
+    state.left = fit;
+    sorted();
+    save();
+  }
   const answer = element("div", { id: "answer" });
   const earlier = element("div", { id: "earlier" });
   const form = element("section", { id: "fit", "aria-labelledby": "fit-title", hidden: true }, element("h2", { id: "fit-title" }, "Fit"), sort, chains, own, element("p", {}, button), line.root);
@@ -61,9 +76,10 @@ export const fitSection = ({ call, follow, state, save, trouble, addNext, setQua
         damped: damped.checked, base: base.checked, fix: valuesOf("fix", "Known values", (text) => Number(text || "x")),
         bound: valuesOf("bound", "Ranges", (text) => (text.split("..").length === 2 ? text.split("..").map((end) => Number(end || "x")) : null)),
       });
+      if (state.left) Object.assign(found, { left: state.left, damped: undefined, base: undefined });
       if (state.controller) found.controller = state.controller.replace(/\s/g, "");
     }
-    if (state.sort === "models" ? !found.models.length : !found.masses.length) throw new Error(state.sort === "models" ? "Name at least one model." : "Choose at least one number of masses.");
+    if (state.sort === "models" ? !found.models.length : !found.masses.length && !found.left) throw new Error(state.sort === "models" ? "Name at least one model." : "Choose at least one number of masses.");
     return found;
   };
 
@@ -119,6 +135,7 @@ export const fitSection = ({ call, follow, state, save, trouble, addNext, setQua
 
   return {
     root: element("div", {}, form, answer, earlier),
+    only,
     wait: () => { button.disabled = true; },
     // Nothing can be fitted before it was seen.
     show: (seen) => {

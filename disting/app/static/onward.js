@@ -15,7 +15,7 @@ const words = (name, found, addNext) => {
     element("h3", { tabindex: -1 }, title),
     warnings.map((warning) => element("p", { class: "warning" }, sentence(warning.replace(/^warning: /, "")))),
     element("p", {}, `${sentence(first)}.`),
-    setup ? element("p", {}, element("button", { type: "button", class: "plainbutton main", onclick: () => addNext(setup) }, `Add this measurement (${setup})`)) : null,
+    setup ? element("p", {}, element("button", { type: "button", class: "plainbutton main", onclick: () => addNext(setup, found.fit) }, `Add this measurement (${setup})`)) : null,
     name === "plan" && found.files.includes("plan.html") ? element("p", {}, element("a", { href: `/project/fits/${found.fit}/plan.html`, target: "_blank", rel: "noopener" }, "Open the page of the plan")) : null,
     text === first ? null : element("details", {}, element("summary", {}, "In full"), element("pre", { class: "scroll", tabindex: 0, role: "group", "aria-label": `${title}, in full` }, text)),
     element("details", {}, element("summary", {}, "The same on the command line"), command(found[name].command)));
