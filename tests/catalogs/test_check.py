@@ -408,3 +408,136 @@ def test_a_single_verdict_is_checked(tmp_path):
         path.write_text(json.dumps(verdict_file(left, right)), encoding="utf-8")
         done = run(path)
         assert done.returncode == 0, done.stdout
+
+
+CHAIN = {
+    "n_masses": 3, "gap": 0, "act_minus": 0, "act_plus": 1, "meas_minus": 0, "meas_plus": 1,
+    "damped": True, "sensor": "acceleration", "ground_dampers": [], "lag": False,
+    "dead_time": False,
+}  # fmt: skip
+SYMMETRY = {"kind": "theorem", "name": "symmetry"}
+EXPLICIT = {
+    "kind": "explicit", "domain": "positive", "formulas": [
+        [True, [], [["C1", "C1*R1**2/(R0 + R1)**2"], ["R0", "R0 + R1"],
+                    ["R1", "R0*(R0 + R1)/R1"]], []],
+        [False, [], [["C1", "C1*(R0 + R1)**2/R0**2"], ["R0", "R0*R1/(R0 + R1)"],
+                     ["R1", "R0**2/(R0 + R1)"]], []],
+    ],
+}  # fmt: skip
+CELLS = [{"network": "R0-p(R1,C1)"}, {"network": "p(R0,C1-R1)"}]
+REPLACED = {
+    "kind": "replaced", "left": "R0-p(C1,R1)", "right": "p(R0,R1-C1)", "left_larger": False,
+    "right_larger": False, "inner": EXPLICIT,
+}  # fmt: skip
+
+
+def is_wrong(check, models, evidence, relation="indistinguishable", **others):
+    """Return True if a single verdict is wrong; raises AssertionError where it is not checked."""
+    told = {"models": models, "query": {}, "notes": [], "evidence": evidence}
+    told |= {"relation": relation, "domain": "positive", "decided_by": "admissible"}
+    told |= {"certainty": "proven", "safety": 0}
+    table = check.Table()
+    check.verdict_file(table, "", told | others)
+    assert table.wrong or any(row[check.CHECKED] for row in table.counts.values())
+    return bool(table.wrong)
+
+
+def test_a_single_verdict_says_no_more_than_its_evidence(check):
+    assert not is_wrong(check, CELLS, EXPLICIT)
+    assert is_wrong(check, CELLS, EXPLICIT, domain="real")
+    assert is_wrong(check, CELLS, EXPLICIT, certainty="theorem")
+    assert is_wrong(check, CELLS, EXPLICIT, decided_by="7")
+    assert is_wrong(check, CELLS, EXPLICIT, safety=9)
+    assert not is_wrong(check, CELLS, REPLACED)
+    for relation in ("distinguishable", "sometimes", "undecided", None):
+        assert is_wrong(check, CELLS, EXPLICIT, relation)
+        assert is_wrong(check, CELLS, REPLACED, relation)
+
+
+def test_a_theorem_is_one_on_the_same_quantity(check):
+    models, theorem = [CHAIN, CHAIN], {"certainty": "theorem"}
+    assert not is_wrong(check, models, SYMMETRY, **theorem)
+    assert is_wrong(check, [CHAIN, CHAIN | {"sensor": "position"}], SYMMETRY, **theorem)
+    assert check.replaceable(*[check.network("1~2; F1; S1")] * 2)
+    other = check.network("1~2; F1; S1")._replace(order=0)
+    assert not check.replaceable(check.network("1~2; F1; S1"), other)
+
+
+def test_evidence_on_limits_shows_no_relation(check):
+    larger = CHAIN | {"meas_plus": 2}
+    ranks = {"kind": "too-large", "left": 7, "right": 7}
+    bounded = {"certainty": "bounded", "safety": 120, "domain": "complex", "decided_by": "exact"}
+    assert is_wrong(check, [CHAIN, larger], ranks, **bounded)
+
+
+def test_signs_of_coefficients_with_a_common_factor_show_nothing(check):
+    """The loose part 2~3 has no influence on the response, only on the determinants."""
+    pair = check.pair_of(check.network("#~1, 2~3; F1; S1"), check.network("#~1, 1~2; F1; S1"))
+    e = {"kind": "inequality", "domain": "positive", "left_given": True}
+    assert check.evidence(pair, e | {"form": [[-1, "a6", "a6"]]}).status == check.SEARCH
+    assert check.evidence(pair, e | {"form": [[1, "a6", "a6"]]}).status != check.CHECKED
+
+
+def test_two_elements_of_one_name_are_no_model(check):
+    for text in ("R1 1 2; R1 2 0", "1>2, 1>2; in 1; out 2", "R1-R1", "R1(R2,C1)", "R1--C1"):
+        with pytest.raises(ValueError, match=r"one name|no circuit"):
+            check.network(text)
+
+
+def test_lag_and_dead_time_are_compared(check):
+    m = check.chain(2, 0, 0, 1, 0, 2, True, (), True, True)
+    p = check.prime_of("a lag")
+    x = check.draw("a lag", m.names, p)
+    assert check.value(m, x, 9, p) == check.value(m, x, 3, p, scale=2)
+    assert check.agree(m, x, m, x, "a lag", p)
+    for name in ("T1", "Td"):
+        assert not check.agree(m, x, m, x | {name: x[name] + 1}, "a lag", p)
+
+
+@pytest.mark.parametrize("change", [
+    {"sensor": "position"}, {"models": 4}, {"catalog": "chains-2-damped"}, {"n_masses": 3},
+])  # fmt: skip
+def test_lies_of_a_header_are_refused(check, tmp_path, change):
+    head, *lines = records("chains-2-undamped")
+    assert table_of(check, tmp_path, "chains-2-undamped", [head | change, *lines]).wrong
+
+
+def test_the_certainty_of_a_rank_is_refused(check, tmp_path):
+    for change in ({"rank_certainty": "bounded"}, {"rank_certainty": "x"}, {"safety": 120}):
+        lines = changed(records("chains-2-undamped"), 1, lambda r, change=change: r.update(change))
+        assert table_of(check, tmp_path, "chains-2-undamped", lines).wrong
+
+
+def test_a_pair_that_is_as_another_is_compared(check):
+    """One pair's verdict stands for another where the networks can replace each other."""
+    a, b, c = map(check.network, ("1~2, 1~3; F1; S1", "1~2, 2~3; F1; S1", "#~1, 1~2; F1; S1"))
+    assert check.as_another(a, b) and check.as_another(c, c) and not check.as_another(a, c)
+    flow = "1>2, 2>0; in 1; out 2"
+    assert not check.as_another(check.network(flow), check.network("1>2, 1>0; in 1; out 2"))
+
+
+def some_candidates():
+    head, *lines = records("candidates")
+    few = [r for r in lines if r.get("model", r.get("left", 9)) <= 4 - ("left" in r)]
+    cut = [r | {k: v[: 4 - r["left"]] for k, v in r.items() if k != "left"} if "left" in r else r
+           for r in few]  # fmt: skip
+    return [head | {"models": 4}, *cut]
+
+
+@pytest.mark.parametrize("lie", [
+    lambda r: r.update(relation="=" + r["relation"][1:]),
+    lambda r: r.update(decided_by="1" + r["decided_by"][1:], left=2),
+    lambda r: r.update(relation=r["relation"][1:]),
+    lambda r: r.update(certainty=r["certainty"][1:]),
+    lambda r: r.update(left=3),
+])  # fmt: skip
+def test_lies_of_candidates_are_refused(check, tmp_path, lie):
+    lines = some_candidates()
+    assert not table_of(check, tmp_path, "candidates", lines).wrong
+    assert table_of(check, tmp_path, "candidates", changed(lines, 5, lie)).wrong
+
+
+def test_a_settled_pair_stands_once(check, tmp_path):
+    lines = records("settled-dampers")[:1]
+    assert not table_of(check, tmp_path, "settled-dampers", lines).wrong
+    assert table_of(check, tmp_path, "settled-dampers", [*lines, *lines]).wrong

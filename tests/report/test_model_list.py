@@ -309,7 +309,7 @@ def test_values_on_a_page_are_equivalents(tmp_path: Path) -> None:
     r0 = "<msubsup><mi>R</mi><mn>0</mn><mo>\u2032</mo></msubsup><mo>=</mo>"
     plus = "<msub><mi>R</mi><mn>0</mn></msub><mo>+</mo><msub><mi>R</mi><mn>1</mn></msub>"
     assert f"<math>{r0}{plus}</math>" in page
-    assert "no measurement at this port tells it from" in page and "Impedance" in page
+    assert "no measurement at this port distinguishes it from" in page and "Impedance" in page
     assert "equivalents &#34;R0-p(R1,C1)&#34; --to &#34;p(R0,R1-C1)&#34; --set C1=..,R0=" in page
 
 
@@ -363,7 +363,7 @@ def test_a_page_says_which_part_of_a_model_another_one_reaches(tmp_path):
     texts = ["1>0, 1>2, 2>0; in 1; out 2", "1>0, 1>2, 2>1; in 2; out 1"]
     matrix, *_ = write_family(texts, "Two ways out", tmp_path)
     page = (tmp_path / "models/list-two-ways-out/1.html").read_text("utf-8")
-    assert "Of A1, exactly the part with a positive equivalent A2, special values aside:" in page
+    assert "Of A1, exactly this part has a positive equivalent A2, special values aside:" in page
     assert "Every A2 with positive parameters has a positive equivalent A1." in page
     plain = re.sub(r"<[^>]+>", "", page)
     assert "a12&gt;a20" in plain

@@ -188,7 +188,10 @@ def crosses(one, other):
 def test_a_pair_moves_and_is_named(visit) -> None:
     tab = visit(PAGE + "#A1-A4")
     assert tab.text_content("#pair").startswith("tree and held")
-    assert "at least one of tree and held does what the other cannot" in tab.inner_text("#verdict")
+    assert (
+        "at least one of tree and held has responses that the other cannot produce"
+        in tab.inner_text("#verdict")
+    )
     boxes = tab.locator("#two g rect")
     assert boxes.count() == 3 and tab.locator("#two text").count() > 10
     before = tab.locator("#two g >> nth=0").get_attribute("transform")

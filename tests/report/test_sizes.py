@@ -112,12 +112,12 @@ def test_the_page_says_it_in_words(found: SizesCatalog) -> None:
     assert outside == [("2:1", "3:3"), ("2:3", "3:3")]
     for left, right in outside:
         assert f'<a class="pairlink" href="#{left}-{right}">{left} in {right}</a>' in text
-    assert "not known, in the others" not in text and 'id="open"' not in text
+    assert "unknown; in the others" not in text and 'id="open"' not in text
 
 
 def test_what_is_not_known_is_said(opened: SizesCatalog) -> None:
     text = sizes_page(opened)
-    assert "in <strong>1</strong> that is\nnot known" in text
+    assert "for <strong>1</strong> this is\nunknown" in text
     assert "No (limit) is known." in text and 'id="open"' in text
     assert [b.unknown for b in between(opened)] == [0, 0, 1]
     assert NOT_KNOWN in {kind for kind, *_ in limits(opened)["entries"]}  # type: ignore[attr-defined]
