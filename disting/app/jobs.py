@@ -5,7 +5,7 @@ since it uses all processors, others wait in order. Both are bounded in number, 
 """
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field, replace
 
@@ -13,9 +13,11 @@ from disting.app.interface import Call, Json
 from disting.app.workers import Failure, Setting, Worker
 from disting.files import json_text
 
+Gone = Callable[[], Awaitable[None]]  # returns when a client is gone
 WAITING = 64  # quick calls that may wait
 QUEUED = 16  # jobs that may wait or run
 KEPT = 50  # finished jobs whose answers are remembered
+LEFT = Failure(499, "the client is gone")
 BUSY = Failure(503, "the app has more to do than it can keep in mind; try again")
 
 
@@ -25,26 +27,40 @@ class Pool:
     def __init__(self, setting: Setting, size: int) -> None:
         self._setting = setting
         self._size = size
-        self._idle: asyncio.Queue[Worker] = asyncio.Queue()
+        # the one that answered last has read the most
+        self._idle: asyncio.LifoQueue[Worker] = asyncio.LifoQueue()
         self._every: set[Worker] = set()
+        self._starting: set[asyncio.Future[None]] = set()
         self._waiting = 0
 
-    async def start(self) -> None:
-        """Start the workers."""
+    def start(self) -> None:
+        """Begin to start the workers."""
         for _ in range(self._size):
-            self._add()
+            self._begin_one()
 
-    async def answer(self, call: Call, request: Json) -> Json:
-        """Answer of a quick call. Raises Failure."""
+    async def answer(self, call: Call, request: Json, gone: Gone | None = None) -> Json:
+        """Answer of a quick call; one that is not ready when the client is `gone` is given up.
+        Raises Failure.
+        """
         if self._waiting >= WAITING:
             raise BUSY
+        leaving = asyncio.ensure_future((gone or _never)())
         self._waiting += 1
         try:
             worker = await self._idle.get()
         finally:
             self._waiting -= 1
+        if leaving.done():
+            self._idle.put_nowait(worker)
+            raise LEFT
         # a client that goes away must not leave a worker with half an answer in its pipe
-        return await asyncio.shield(asyncio.ensure_future(self._by(worker, call, request)))
+        answering = asyncio.ensure_future(self._by(worker, call, request))
+        await asyncio.shield(asyncio.wait({answering, leaving}, return_when="FIRST_COMPLETED"))
+        if answering.done():
+            leaving.cancel()
+        else:
+            worker.kill()
+        return await answering
 
     async def _by(self, worker: Worker, call: Call, request: Json) -> Json:
         try:
@@ -54,17 +70,22 @@ class Pool:
                 self._idle.put_nowait(worker)
             else:
                 self._every.discard(worker)
-                self._add()
+                self._begin_one()
 
-    def _add(self) -> None:
-        worker = Worker(self._setting)
+    def _begin_one(self) -> None:
+        task = asyncio.ensure_future(self._add())
+        self._starting.add(task)
+        task.add_done_callback(self._starting.discard)
+
+    async def _add(self) -> None:
+        worker = await asyncio.to_thread(Worker, self._setting)
         self._every.add(worker)
         self._idle.put_nowait(worker)
 
-    def end(self) -> None:
-        """End all workers."""
-        for worker in self._every:
-            worker.end()
+    async def end(self) -> None:
+        """End all workers, those that are starting too."""
+        await asyncio.gather(*self._starting, return_exceptions=True)
+        await asyncio.gather(*(asyncio.to_thread(worker.end) for worker in self._every))
 
 
 @dataclass(eq=False, slots=True)
@@ -157,7 +178,7 @@ class Jobs:
                 """From the thread that reads the worker's pipe."""
                 loop.call_soon_threadsafe(job.advance, what, done, total)
 
-            job.worker = worker = Worker(self._setting)
+            job.worker = worker = await asyncio.to_thread(Worker, self._setting)
             job.tell("running")
             try:
                 job.answer = await asyncio.to_thread(worker.ask, job.call, job.request, hear)
@@ -195,6 +216,11 @@ def _event(name: str, content: Json) -> bytes:
     return f"event: {name}\ndata: {json_text(content)}\n\n".encode()
 
 
+async def _never() -> None:
+    """A client that stays."""
+    await asyncio.Event().wait()
+
+
 def _silent(*_: object) -> None:
     """Progress that nobody watches."""
 
@@ -207,10 +233,9 @@ async def working(setting: Setting, size: int) -> AsyncIterator[tuple[Pool, Pool
     files, pool = Pool(replace(setting, loads=False), 1), Pool(setting, size)
     jobs = Jobs(setting)
     try:
-        await files.start()
-        await pool.start()
+        files.start()
+        pool.start()
         yield files, pool, jobs
     finally:
         jobs.end()
-        await asyncio.to_thread(files.end)
-        await asyncio.to_thread(pool.end)
+        await asyncio.gather(files.end(), pool.end())

@@ -17,10 +17,12 @@ from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, next_catalo
 from disting.decide.identifiability import Identifiability
 from disting.errors import InputError
 from disting.experiments.experiment import Experiment, places_of
-from disting.general.any_model import as_chain, of_network
+from disting.general.any_model import as_chain, as_model, of_network
+from disting.general.identifiability import local_identifiability
 from disting.general.matrix_model import AnyModel
 from disting.model.chain import Chain, Sort
 from disting.model.names import NAME, name_of, read, read_together
+from disting.model.presentation import plural
 from disting.network.chains import of_chain
 from disting.network.network import Network
 from disting.network.notation import network_of, notations_of, values_in
@@ -50,6 +52,7 @@ START = {
     "n": ("0.9", "0.8"),
     "a": ("1", "0.5", "2", "0.3", "1.5"),
 }
+MOST_COUNTED = 40  # parameters; with more the count takes longer than a drawing may
 RATIO = ("2", "1.5", "3")  # of gears
 
 
@@ -93,7 +96,28 @@ def draw_machine(request: Json) -> Json:
         "values": start_values(model, text, request.get("notation", "")),
         "unseen": [] if network is None else list(network.unseen),
         "sensors": free_masses(model),
+        "count": count_determinable(model),
     }
+
+
+def count_determinable(model: Chain | AnyModel) -> str:
+    """Return how many parameters the response determines, which takes milliseconds; "" for models
+    with a dead time, a lag, exponents or very many parameters. Whether the values are unique is
+    what `determine` finds.
+
+    >>> count_determinable(model_of("1=2; F1; S2"))
+    '4 parameters, only 3 determinable: infinitely many values give the same response.'
+    """
+    if network_behind(model) is None or len(model.parameters) > MOST_COUNTED:
+        return ""
+    general = as_model(model)
+    if general.powers.weights or general.powers.unseen:
+        return ""
+    found = local_identifiability(general)
+    size, rank = len(found.parameters), found.rank
+    how, many = ("all", "at most finitely") if rank == size else (f"only {rank}", "infinitely")
+    head = f"{plural(size, 'parameter')}, {how} determinable"
+    return f"{head}: {many} many values give the same response."
 
 
 def free_masses(model: Chain | AnyModel) -> list[int]:

@@ -12,6 +12,7 @@
 Every refusal is {"error": "one sentence"}.
 """
 
+import asyncio
 import json
 import mimetypes
 import socket
@@ -19,7 +20,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from filecmp import cmp
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -50,11 +51,16 @@ SITE = (
     "motion-machine.js",
     "motion-run.js",
     "motion-graph.js",
+    "motion-plots.js",
+    "motion-maps.js",
+    "motion-imitate.js",
+    "motion-second.js",
     "motion.css",
     "copy.js",
 )
 LARGEST_REQUEST = 2**20  # bytes of a JSON request
 LARGEST_FILE = 200 * 10**6  # bytes of a measured file
+PATIENCE = 0.5  # seconds between two looks whether a client still waits
 MOST_FILES = 1000  # of a project
 WORKERS = 3  # that answer quick calls: a page keeps two at most with slow ones
 MEDIA = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
@@ -166,7 +172,7 @@ async def call(request: Request) -> Response:
     if wanted.is_job:
         return _answer({"job": own.jobs.begin(wanted, content).number}, 202)
     pool = own.files if wanted.is_light else own.pool
-    return _answer(await pool.answer(wanted, content))
+    return _answer(await pool.answer(wanted, content, partial(_until_gone, request)))
 
 
 async def jobs_list(request: Request) -> Response:
@@ -250,6 +256,12 @@ def _place(folder: Path, beside: Path, name: str) -> str:
     free = free_name(folder, name)
     beside.replace(inside(folder, free))
     return free
+
+
+async def _until_gone(request: Request) -> None:
+    """Return when the client has closed its connection."""
+    while not await request.is_disconnected():
+        await asyncio.sleep(PATIENCE)
 
 
 async def _json(request: Request) -> Json:

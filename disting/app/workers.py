@@ -4,6 +4,9 @@ A pool cannot end one of its tasks, and a page needs that: a call that takes too
 somebody stops. So a worker is one process behind a pipe. It shares nothing with the server, works
 in the project folder, has a limit of memory, and ends with the server however that ends. A job
 starts its own pool of processes below it, which ends with it.
+
+Imports take seconds. On Linux they are done once, in a server of forks: a worker that takes the
+place of one that was ended is ready at once.
 """
 
 import os
@@ -11,9 +14,9 @@ import signal
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from importlib import import_module
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -23,7 +26,7 @@ from typing import Any
 
 from disting.app.interface import CALLS, Call, Json, Progress
 from disting.errors import DistingError, brief
-from disting.store.scheduling import end_with_parent
+from disting.store.scheduling import deaf_to_interrupts, end_with_parent
 
 MEMORY = 4 * 2**30  # bytes of address space of one process
 START = (
@@ -31,8 +34,10 @@ START = (
 )
 GRACE = 2.0  # seconds in which a process may end by itself
 TROUBLES = "app-errors.txt"  # in the project folder, what a defect of the program left
-LIBRARIES = ("numpy", "scipy.optimize", "scipy.stats", "scipy.signal")  # which take long to load
-IDLE = 0.3  # seconds without a call after which a worker loads what the next one may need
+IDLE = 0.3  # seconds without a call after which a worker prepares for the next one
+PRELOADED = "disting.app.preloaded"
+CAN_FORK = sys.platform == "linux"  # elsewhere a fork of numerical libraries is not safe
+EXAMPLE = {"text": "1=2=3; F1; S1"}  # which reads the catalogues of machines
 
 
 class Failure(Exception):
@@ -51,17 +56,20 @@ class Setting:
     folder: Path
     jobs: int = 1
     scheduler: str = ""
-    loads: bool = True  # ahead, while nothing is asked for
+    loads: bool = True  # ahead what calls need; False: of a worker that only handles files
 
 
 class Worker:
-    """One process; `ask` blocks, `end` may be called from any thread meanwhile."""
+    """One process; `ask` blocks, and so does the start of the first one, until libraries are
+    loaded; `end` may be called from any thread meanwhile.
+    """
 
     def __init__(self, setting: Setting) -> None:
-        context = get_context("spawn")
+        context: Any = _forking() if CAN_FORK and setting.loads else get_context("spawn")
         self._pipe, there = context.Pipe()
         self._process = context.Process(target=_serve, args=(there, setting), name="disting app")
-        self._process.start()
+        with deaf_to_interrupts():  # the server hears Ctrl-C and ends its workers
+            self._process.start()
         there.close()
 
     def ask(self, call: Call, request: Json, progress: Progress) -> Json:
@@ -89,7 +97,7 @@ class Worker:
     @property
     def is_alive(self) -> bool:
         """Return True while the process can be asked."""
-        return self._process.is_alive()
+        return bool(self._process.is_alive())
 
     @property
     def pid(self) -> int:
@@ -107,6 +115,12 @@ class Worker:
         if self._process.is_alive():
             self._process.kill()
             self._process.join()
+
+
+def _forking() -> Any:  # ForkServerContext, which Windows does not have
+    context = get_context("forkserver")
+    context.set_forkserver_preload([PRELOADED])
+    return context
 
 
 def _serve(pipe: Connection, setting: Setting) -> None:
@@ -150,11 +164,19 @@ def _answer(
 
 
 def _list_loads() -> list[Callable[[], object]]:
-    """Imports of a worker while it has nothing to do, in small parts."""
+    """Work of a worker while it has nothing else to do, in small parts: imports, unless it has
+    them, and what the first call of a page reads.
+    """
     return [
-        *(partial(import_module, name) for name in LIBRARIES),
         *(call.load for call in CALLS.values()),
+        *(partial(_try, CALLS[name]) for name in ("machine", "determine", "alike")),
     ]
+
+
+def _try(call: Call) -> None:
+    """Answer an example; trouble is told when somebody calls."""
+    with suppress(DistingError, OSError):
+        call.load()(EXAMPLE)
 
 
 def _keep(text: str) -> None:

@@ -116,7 +116,7 @@ def guide(
     is the last page then; `notebooks`: texts of executed notebooks by name, a part of their own.
     """
     texts = guide_texts()
-    drawings = _files(".svg")
+    drawings = _files(".svg") | {name: f'<img src="{name}" alt="">' for name, _ in _pictures()}
     own_names = {*texts, *(PREFIX + name for name in notebooks)}
     pages = {name: guide_page(name, text, own_names, drawings) for name, text in texts.items()}
     made = (*python_pages(), *([command_page(commands)] if commands else []))
@@ -138,6 +138,11 @@ def guide_files(parts: tuple[Part, ...]) -> Iterator[tuple[str, bytes]]:
     yield "guide/style.css", (source("style.css") + source("guide.css")).encode()
 
 
+def guide_pictures() -> Iterator[tuple[str, bytes]]:
+    """Address below the site's folder and content of every picture of the guide."""
+    yield from ((f"guide/{name}", content) for name, content in _pictures())
+
+
 def guide_texts() -> dict[str, str]:
     """Markdown of every page by its name, the listing first."""
     texts = {name.removesuffix(".md"): text for name, text in _files(".md").items()}
@@ -151,6 +156,12 @@ def _files(ending: str) -> dict[str, str]:
         for path in sorted((files("disting") / "guide").iterdir(), key=lambda path: path.name)
         if path.name.endswith(ending)
     }
+
+
+def _pictures() -> list[tuple[str, bytes]]:
+    """Pictures of a screen next to the pages: names and contents."""
+    found = [path for path in (files("disting") / "guide").iterdir() if path.name.endswith(".webp")]
+    return sorted((path.name, path.read_bytes()) for path in found)
 
 
 def guide_parts(texts: dict[str, str]) -> list[tuple[str, list[str]]]:

@@ -135,6 +135,7 @@ def _count_undecided(c: Catalog) -> dict[int, int]:
     return {number: touched.count(number) for number in sorted(set(touched))}
 
 
+GUIDE = "guide/index.html"
 THUMBNAIL = 168.0  # pixels
 Run = tuple[Ink, int, int, int]
 """Adjacent fields of one colour: their first column, row, number."""
@@ -267,6 +268,7 @@ def index(
         damper_cards=[damper_card(f) for f in dampers],
         example=shown,
         links=links,
+        guide=any(address == GUIDE for address, *_ in links),
         families=script_json(families(catalogs, dampers, across)),
         across=across,
         machines=script_json(machines(catalogs)),

@@ -19,8 +19,8 @@ from disting.catalogs.sizes import SizesCatalog, name_of as sizes_name, sizes_ca
 from disting.files import write_whole
 from disting.report.damper_page import damper_page
 from disting.report.environment import source
-from disting.report.guide import PREFIX, Part, guide, guide_files
-from disting.report.index import Link, index
+from disting.report.guide import PREFIX, Part, guide, guide_files, guide_pictures
+from disting.report.index import GUIDE, Link, index
 from disting.report.ladenheim import ADDRESS as LADENHEIM
 from disting.report.markdown import GuidePage
 from disting.report.matrix import figure, figure_png, has_slides, slide_name, slide_png
@@ -76,11 +76,11 @@ class SitePage:
 PAGES: tuple[SitePage, ...] = (
     SitePage(
         link=(
-            "guide/index.html",
+            GUIDE,
             "Guide",
             "first steps, how to do it, what the answers mean and rest on, every command and name",
         ),
-        files=lambda site: guide_files(site.parts),
+        files=lambda site: (*guide_files(site.parts), *guide_pictures()),
     ),
     SitePage(
         link=(

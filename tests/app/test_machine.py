@@ -74,6 +74,24 @@ def test_what_can_be_determined_is_what_the_public_function_says(text: str) -> N
     assert {x["name"]: x["level"] for x in answer["levels"]} == dict(found.levels)
 
 
+@pytest.mark.thin(3)
+@pytest.mark.parametrize("text", [*OTHERS[2:], *MACHINES[::3]])
+def test_the_count_that_comes_first_is_that_of_the_whole_answer(text: str) -> None:
+    found = determine({"text": text})
+    size, how = found["sentence"].split(" parameter")[0], f"only {found['rank']}"
+    count = draw_machine({"text": text})["count"]
+    assert count.startswith(f"{size} parameter")
+    assert (how if found["rank"] < int(size) else "all") + " determinable" in count
+    if found["rank"] == int(size):
+        assert not any(x["level"] == "not" for x in found["levels"])
+
+
+@pytest.mark.parametrize("text", ["3:1+delay", "R0-p(R1,P1)", "=".join(map(str, range(1, 30)))])
+def test_no_count_where_it_would_say_too_much_or_take_too_long(text: str) -> None:
+    ends = "" if text.startswith(("3:", "R")) else "; F1; S1"
+    assert draw_machine({"text": text + ends})["count"] == ""
+
+
 @pytest.mark.parametrize("text", ["1=2*i, 2-#; F1; S1", "R0-p(R1,C1)", "1>2, 2>0; in 1; out 2"])
 def test_the_command_to_copy_says_the_same(text: str, capsys: pytest.CaptureFixture[str]) -> None:
     answer = determine({"text": text})

@@ -3,6 +3,7 @@ on a telephone, light and dark.
 """
 
 import json
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -65,6 +66,20 @@ def wait_text(tab, text: str) -> None:
             return
         tab.wait_for_timeout(100)
     assert tab.input_value("#machine-text") == text
+
+
+def hold(tab, name: str) -> list:
+    """Keep the calls of a name waiting; those that came."""
+    held = []
+    tab.route(f"**/api/{name}", lambda route: held.append(route))
+    return held
+
+
+def release(tab, name: str, held: list) -> None:
+    """Let them go to the engine."""
+    for route in held:
+        route.continue_()
+    tab.unroute(f"**/api/{name}")
 
 
 def test_a_machine_by_keys(own, visit):
@@ -163,6 +178,30 @@ def test_a_machine_by_touch(visit):
         wait_text(tab, "1=2=3; F1; S1")
 
 
+def test_a_gear_by_mouse_by_keys_and_by_touch(visit):
+    with visit("machine", has_touch=True) as tab:
+        write(tab, "1=2=3; F1; S1")
+        tab.click("label:has(input[value=gear])")
+        for node in "12":
+            tab.locator(f".bench [data-node='{node}'] rect").click()
+        wait_text(tab, "1=2*i=3; F1; S1")
+        assert tab.locator(".bench .gear").count() == 1
+        for node in "23":
+            tab.locator(f".bench [data-node='{node}'] rect").tap()
+        wait_text(tab, "1=2*i=3*i2; F1; S1")
+        for node in "21":
+            tab.focus(f".bench [data-node='{node}']")
+            tab.keyboard.press("Enter")
+        wait_text(tab, "1=2=3*i2; F1; S1")
+        ends = [tab.locator(f".bench [data-node='{i}'] rect").bounding_box() for i in (2, 3)]
+        tab.mouse.click(*((ends[0][x] + ends[1][x]) / 2 + 20 for x in "xy"))
+        wait_text(tab, "1=2=3; F1; S1")
+        for node in "10":  # a gear has no end at the ground: mass 1 stays chosen
+            tab.focus(f".bench [data-node='{node}']")
+            tab.keyboard.press("Enter")
+        assert tab.get_attribute(".bench [data-node='1']", "aria-pressed") == "true"
+
+
 def test_what_looks_the_same_leads_to_both(visit):
     with visit("machine") as tab:
         write(tab, "1=2; F1; S1")
@@ -180,6 +219,42 @@ def test_what_looks_the_same_leads_to_both(visit):
         row.locator("text=Compare both").click()
         tab.locator("#relation", has_text="indistinguishable").wait_for()
         assert tab.input_value("#compare-right") == "2:3"
+
+
+def test_a_slow_answer_shows_what_is_known_and_its_seconds(visit):
+    with visit("machine") as tab:
+        write(tab, "1=2; F1; S1")
+        held = hold(tab, "determine")
+        tab.fill("#machine-text", "1=2=3; F1; S3")
+        tab.locator("#determined .count", has_text="7 parameters, only 6 determinable").wait_for()
+        tab.locator(
+            "#determined .waiting", has_text=re.compile(r"one value … [1-9]\d* s")
+        ).wait_for()
+        tab.locator("#alike h3").first.wait_for()  # which waits for nothing else
+        release(tab, "determine", held)
+        tab.locator("#determined .verdict", has_text="only 6 determinable").wait_for()
+        assert tab.get_attribute("#determined", "aria-busy") == "false"
+
+
+def test_what_nobody_needs_any_more_is_given_up(visit):
+    with visit("machine") as tab:
+        write(tab, "1=2; F1; S1")
+        left = []
+        tab.on("requestfailed", lambda request: left.append(request.post_data_json["text"]))
+        held = hold(tab, "determine")
+        tab.fill("#machine-text", "1=2=3; F1; S3")
+        tab.locator("#determined .waiting").wait_for()
+        tab.unroute("**/api/determine")
+        tab.fill("#machine-text", "1=2=3; F1; S2")
+        tab.locator("#determined [data-of='1=2=3; F1; S2']").wait_for()
+        assert len(held) == 1
+        assert "1=2=3; F1; S3" in left
+        hold(tab, "determine")
+        tab.fill("#machine-text", "1=2; F1; S2")
+        tab.locator("#determined .waiting").wait_for()
+        tab.fill("#machine-text", "no machine")
+        tab.locator("#machine-trouble", has_text="write").wait_for()
+        assert tab.locator(".waiting").count() == 0
 
 
 def test_a_circuit_is_written_and_a_bad_text_says_what_to_do(visit):
@@ -221,6 +296,37 @@ def test_two_models_and_their_motion(visit):
         tab.locator("text=In motion").wait_for(state="hidden")
         tab.fill("#compare-right", "1=2; F1; S1")
         tab.locator("#pair-verdict .trouble, #relation").first.wait_for()
+
+
+def gains(tab) -> list[list[float]]:
+    """Curves of the amplitudes of both models, as numbers of their paths."""
+    paths = [tab.locator(f"#motion-bode path.curve.{one}").first for one in ("one", "two")]
+    return [[float(x) for x in re.findall(r"[\d.]+", p.get_attribute("d"))] for p in paths]
+
+
+def test_bode_diagrams_a_sweep_and_the_nearest_values(visit):
+    with visit("compare") as tab:
+        tab.fill("#compare-left", "3:1")
+        tab.fill("#compare-right", "3:11")
+        tab.locator("#motion-how", has_text="Both show the same acceleration").wait_for()
+        one, two = gains(tab)
+        assert one == pytest.approx(two, abs=0.11)
+        tab.click("label:has(input[value=sweep])")
+        tab.locator("#motion-run path.curve").first.wait_for()
+        assert "in 40 s" in tab.inner_text("#page-compare")
+        mark = "#motion-bode path.now"
+        before = tab.get_attribute(mark, "d")
+        tab.focus("[aria-label=Time]")
+        tab.keyboard.press("PageUp")
+        assert tab.get_attribute(mark, "d") != before
+        assert "Hz" in tab.get_attribute("[aria-label=Time]", "aria-valuetext")
+        tab.fill("#compare-right", "3:2")
+        tab.locator("#motion-nearest[data-state=found]").wait_for()
+        assert "is off by up to" in tab.inner_text("#motion-how")
+        assert "dB apart" in tab.locator("#motion-bode").inner_html()
+        one, two = gains(tab)
+        assert one != pytest.approx(two, abs=0.11)
+        assert barriers(tab) == []
 
 
 @pytest.mark.parametrize(

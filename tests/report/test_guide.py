@@ -21,7 +21,16 @@ from disting.model.family import Family
 from disting.model.names import chain_of
 from disting.network.notation import network_of, notations_of
 from disting.report import write_report
-from disting.report.guide import Part, guide, guide_files, guide_parts, guide_texts, notebook_page
+from disting.report.guide import (
+    Part,
+    guide,
+    guide_files,
+    guide_parts,
+    guide_pictures,
+    guide_texts,
+    notebook_page,
+)
+from disting.report.index import GUIDE, index
 from disting.report.markdown import GuidePage, guide_page
 from disting.report.search import search_script
 from tests.cli.process import called
@@ -70,6 +79,16 @@ def shown() -> list[tuple[str, str, bool]]:
         for code in re.findall(r"`(disting [^`]+)`", text)
     ]
     return [(name, line, whole) for name, line, whole in found if line.startswith("disting ")]
+
+
+def test_the_picture_of_the_app_is_small_and_where_it_is_named() -> None:
+    pictures = dict(guide_pictures())
+    assert 'src="app.webp"' in written()["guide/app.html"]
+    assert 0 < len(pictures["guide/app.webp"]) < 60_000
+    start = index([catalog(2, damped=True)], [(GUIDE, "Guide", "all of it")])
+    assert 'src="guide/app.webp"' in start
+    assert "app.webp" not in index([catalog(2, damped=True)])
+    assert "(disting/guide/app.webp)" in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_the_readme_is_short() -> None:

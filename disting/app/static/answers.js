@@ -13,10 +13,10 @@ export const folded = (title, ...children) => element("details", { class: "fold"
 
 export const commandFold = (text) => folded("Command", command(text));
 
-// While a promise is open its place says how long it takes; then what it gives, or why not.
-export const waitFor = async (place, what, promise, show, isCurrent = () => true) => {
+// While a promise is open its place says what is known already and how long it takes; then what it gives, or why not.
+export const waitFor = async (place, what, promise, show, isCurrent = () => true, known = []) => {
   const begun = performance.now(), line = element("p", { class: "hint waiting" }, `${what} …`);
-  place.replaceChildren(line);
+  place.replaceChildren(...known, line);
   place.setAttribute("aria-busy", "true");
   const clock = setInterval(() => { line.textContent = `${what} … ${Math.round((performance.now() - begun) / 1000)} s`; }, 1000);
   try {
@@ -24,11 +24,11 @@ export const waitFor = async (place, what, promise, show, isCurrent = () => true
     if (isCurrent()) place.replaceChildren(...[show(answer)].flat().filter(Boolean));
     return answer;
   } catch (trouble) {
-    if (isCurrent()) place.replaceChildren(element("p", { class: "trouble" }, trouble.message));
+    if (isCurrent()) place.replaceChildren(...known, element("p", { class: "trouble" }, trouble.message));
     return null;
   } finally {
     clearInterval(clock);
-    place.setAttribute("aria-busy", "false");
+    if (isCurrent()) place.setAttribute("aria-busy", "false");
   }
 };
 

@@ -1,13 +1,13 @@
 // The bench: masses to place, to join and to move, by mouse, touch and keys. `onChange(parts)` hears every change of the machine.
 import { element, svg, announce } from "./dom.js";
-import { GROUND, addMass, join, removeJoint, removeMass, togglePort } from "./parts.js";
+import { GROUND, addMass, join, removeJoint, removeMass, toggleGear, togglePort } from "./parts.js";
 
 const WIDTH = 540, HEIGHT = 300, SIZE = 48, FLOOR = 270; // in the units of the drawing
 const TOOLS = [
-  ["move", "Move"], ["both", "Spring + damper"], ["spring", "Spring"], ["damper", "Damper"],
+  ["move", "Move"], ["both", "Spring + damper"], ["spring", "Spring"], ["damper", "Damper"], ["gear", "Gear"],
   ["force", "Force"], ["sensor", "Sensor"], ["remove", "Remove"],
 ];
-const KINDS = ["both", "spring", "damper"];
+const KINDS = ["both", "spring", "damper"], JOINING = [...KINDS, "gear"];
 const WORDS = { both: "spring and damper", spring: "spring", damper: "damper" };
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
@@ -39,13 +39,21 @@ export const arrange = (parts, places) => {
   return found;
 };
 
-// A spring or a damper from p to q, beside the line by `aside`.
-const symbolOf = (kind, p, q, aside) => {
+// A spring or a damper from p to q, beside the line by `aside` and before its middle by `back`.
+const symbolOf = (kind, p, q, aside, back) => {
   const length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1, u = [(q[0] - p[0]) / length, (q[1] - p[1]) / length];
   const at = (along, across) => [0, 1].map((i) => ((p[i] + q[i]) / 2 + along * u[i] + (across + aside) * (i ? u[0] : -u[1])).toFixed(1)).join(" ");
-  const half = length / 2, zigzag = [-15, -9, -3, 3, 9, 15].map((x, i) => at(x, i % 2 ? 6 : -6));
-  if (kind === "spring") return `M${at(-half, 0)}L${[at(-18, 0), ...zigzag, at(18, 0), at(half, 0)].join("L")}`;
-  return `M${at(-half, 0)}L${at(-9, 0)}M${at(9, -6)}L${at(-9, -6)}L${at(-9, 6)}L${at(9, 6)}M${at(3, -4)}L${at(3, 4)}M${at(3, 0)}L${at(half, 0)}`;
+  const half = length / 2, own = (along, across) => at(along - back, across), zigzag = [-15, -9, -3, 3, 9, 15].map((x, i) => own(x, i % 2 ? 6 : -6));
+  if (kind === "spring") return `M${at(-half, 0)}L${[own(-18, 0), ...zigzag, own(18, 0), at(half, 0)].join("L")}`;
+  return `M${at(-half, 0)}L${own(-9, 0)}M${own(9, -6)}L${own(-9, -6)}L${own(-9, 6)}L${own(9, 6)}M${own(3, -4)}L${own(3, 4)}M${own(3, 0)}L${at(half, 0)}`;
+};
+// A gear before the mass at q: two wheels, as in the drawings of the package.
+const gearAt = (p, q) => {
+  const length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1, before = (way) => [0, 1].map((i) => q[i] - (way * (q[i] - p[i])) / length);
+  return svg("g", { class: "gear" }, [[SIZE / 2 + 23, 11], [SIZE / 2 + 6, 6]].map(([way, r]) => {
+    const [cx, cy] = before(way);
+    return svg("circle", { cx: cx.toFixed(1), cy: cy.toFixed(1), r });
+  }));
 };
 
 export const createBench = (onChange) => {
@@ -58,10 +66,10 @@ export const createBench = (onChange) => {
 
   const HINTS = {
     move: "Drag a mass. Keys on a mass: arrows move it, F and S toggle force and sensor, Delete removes it.",
-    force: "Choose the mass on which the force acts.", sensor: "Choose the mass whose motion is measured.", remove: "Choose a mass or a joint to remove.",
+    force: "Choose the mass on which the force acts.", sensor: "Choose the mass whose motion is measured.", gear: "Choose two masses: a gear is before the second one. Where there is one, it goes.", remove: "Choose a mass or a joint to remove.",
   };
   const showHint = () => {
-    const second = picked === null ? "" : `${picked ? `Mass ${picked}` : "The ground"} is chosen: choose the other end.`;
+    const second = picked === null ? "" : tool === "gear" ? `Mass ${picked} is chosen: choose the mass behind the gear.` : `${picked ? `Mass ${picked}` : "The ground"} is chosen: choose the other end.`;
     hint.textContent = second || HINTS[tool] || `Choose two masses, or a mass and the ground: a ${WORDS[tool]} joins them.`;
   };
   const choose = (name) => { tool = name; picked = null; draw(); };
@@ -83,7 +91,7 @@ export const createBench = (onChange) => {
   const pick = (node) => { // with the tool, by whatever means
     if (tool === "remove" && node !== GROUND) return remove(node);
     if ((tool === "force" || tool === "sensor") && node !== GROUND) return change(togglePort(parts, `${tool}s`, node), `${tool} at mass ${node} changed.`);
-    if (!KINDS.includes(tool)) return draw();
+    if (!JOINING.includes(tool) || (tool === "gear" && node === GROUND)) return draw();
     if (picked === null || picked === node) {
       picked = picked === node ? null : node;
       draw();
@@ -91,6 +99,7 @@ export const createBench = (onChange) => {
     }
     const from = picked;
     picked = null;
+    if (tool === "gear") return change(toggleGear(parts, from, node), `Gear between mass ${from} and mass ${node} changed.`);
     return change(join(parts, from, node, tool), `A ${WORDS[tool]} joins ${[from, node].map((i) => (i ? `mass ${i}` : "the ground")).join(" and ")}.`);
   };
   const remove = (node) => {
@@ -137,7 +146,7 @@ export const createBench = (onChange) => {
     drag = null;
     if (tool === "move") return;
     pick(node);
-    if (over !== undefined && +over !== node && KINDS.includes(tool) && picked === node) pick(+over);
+    if (over !== undefined && +over !== node && JOINING.includes(tool) && picked === node) pick(+over);
   });
   canvas.addEventListener("pointercancel", () => { drag = null; });
   canvas.addEventListener("dblclick", (event) => { if (!event.target.closest("[data-node], [data-joint]")) place(pointOf(event)); });
@@ -145,10 +154,11 @@ export const createBench = (onChange) => {
   const jointOf = ({ from, to, kind, ratio }, at) => {
     const p = places[from] ?? [0, FLOOR], q = to === GROUND ? [p[0], FLOOR] : places[to], kinds = kind === "both" ? ["spring", "damper"] : [kind];
     const middle = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2], words = `${WORDS[kind]} between mass ${from} and ${to ? `mass ${to}` : "the ground"}${ratio ? `, gear ${ratio}` : ""}`;
-    const act = () => tool === "remove" && change(removeJoint(parts, from, to), "Joint removed.");
-    return svg("g", { "data-joint": at, class: tool === "remove" ? "joint removable" : "joint", onclick: act },
+    const act = () => (tool === "remove" ? change(removeJoint(parts, from, to), "Joint removed.") : tool === "gear" && picked === null && change(toggleGear(parts, from, to), `Gear between mass ${from} and mass ${to} changed.`));
+    return svg("g", { "data-joint": at, class: tool === "remove" || (tool === "gear" && to) ? "joint removable" : "joint", onclick: act },
       svg("title", {}, words),
-      kinds.map((one, i) => svg("path", { d: symbolOf(one, p, q, kinds.length > 1 ? 18 * i - 9 : 0) })),
+      kinds.map((one, i) => svg("path", { d: symbolOf(one, p, q, kinds.length > 1 ? 18 * i - 9 : 0, ratio ? 16 : 0) })),
+      ratio ? gearAt(p, q) : null,
       svg("path", { class: "grip", d: `M${p.join(" ")}L${q.join(" ")}` }),
       ratio ? svg("text", { x: middle[0], y: middle[1] - 22 }, `× ${ratio}`) : null);
   };

@@ -3,10 +3,10 @@ export class CallError extends Error {
   constructor(message, status) { super(message); this.status = status; }
 }
 
-const post = async (path, body, type = "application/json") => {
+const post = async (path, body, type = "application/json", signal = undefined) => {
   let response;
   try {
-    response = await fetch(path, { method: "POST", headers: { "content-type": type }, body });
+    response = await fetch(path, { method: "POST", headers: { "content-type": type }, body, signal });
   } catch {
     throw new CallError("The app does not answer. Start it again with: disting app", 0);
   }
@@ -34,9 +34,10 @@ export const follow = (job, onProgress = () => {}) => {
   return promise;
 };
 
-// `call("look", request)`; of a job `onProgress({what, done, total, state})` hears how far it is.
+// `call("look", request)`; of a job `onProgress({what, done, total, state})` hears how far it is. `stop` ends a job; `leave` gives up an
+// answer that nobody needs any more, and the app then ends what computes it.
 export const call = (name, request, onProgress) => {
-  const answered = post(`/api/${name}`, JSON.stringify(request));
+  const interest = new AbortController(), answered = post(`/api/${name}`, JSON.stringify(request), undefined, interest.signal);
   let running = null, isStopped = false;
   const promise = answered.then((content) => {
     if (!("job" in content)) return content;
@@ -45,6 +46,7 @@ export const call = (name, request, onProgress) => {
     return running;
   });
   promise.stop = () => { isStopped = true; return running?.stop(); };
+  promise.leave = () => interest.abort();
   return promise;
 };
 

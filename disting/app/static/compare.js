@@ -64,7 +64,7 @@ export const start = async (root, call) => {
     const answer = await moved;
     if (!isCurrent()) return;
     moving.hidden = !answer?.machines.length;
-    if (!moving.hidden) motion.show(answer, [pair.left, pair.right]);
+    if (!moving.hidden) motion.show(answer, [pair.left, pair.right], relation);
   };
   const run = async () => {
     const mine = ++turn, pair = { left: left.value, right: right.value };

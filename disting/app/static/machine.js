@@ -4,20 +4,19 @@ import { element } from "./dom.js";
 import { EMPTY, changeJoint, removeJoint, togglePort } from "./parts.js";
 import { createBench } from "./bench.js";
 import { commandFold, evidenceButton, facts, folded, picture, valuesTable, waitFor } from "./answers.js";
-import { ask as askCompare } from "./compare.js";
+import { ask as showBoth } from "./compare.js";
 
 const GALLERY = [
   ["Motor and load", "1=2; F1; S1"], ["Motor, gear, load", "1=2*i, 2-#; F1; S1"], ["Belt axis", "1=2=3, 3-#; F1; S1"], ["Gantry", "1=3, 2=3, 3=4, 1-#, 2-#; F1; S4"],
   ["Two encoders", "1=2; F1; S1 S2"], ["Randles cell", "R0-p(R1-W1,C1)"], ["Two compartments", "1>2, 2>1, 2>0; in 1; out 1"],
 ];
-const PAUSE = 250; // ms after the last key before a text is read
+const PAUSE = 120; // ms after the last key before a text is read
 const SHOWN = 3; // models of which the values are shown at once
 const MOST = 6; // of a menu, beside the machine
 const kept = (name, key) => `m_${name}_${key}`;
 
 export const start = async (root, call) => {
-  const queues = { known: Promise.resolve(), more: Promise.resolve() };
-  let turn = 0, timer = null, now = null, values = {};
+  let turn = 0, timer = null, now = null, values = {}, queue = Promise.resolve(), open = new Set();
   const text = element("input", { type: "text", id: "machine-text", spellcheck: "false", autocomplete: "off", maxlength: 5000, "aria-describedby": "machine-trouble" });
   const gallery = element("select", { id: "machine-gallery" }, element("option", { value: "" }, "Choose …"), GALLERY.map(([title, of]) => element("option", { value: of }, title)));
   const trouble = element("p", { class: "trouble", id: "machine-trouble", role: "alert" });
@@ -39,15 +38,30 @@ export const start = async (root, call) => {
       trouble, editor, asText, drawing),
     answers);
 
-  const read = async (request, at = {}) => {
-    const mine = ++turn, isCurrent = () => mine === turn;
+  // Another machine or other values: answers that are not there yet are given up.
+  const begin = () => {
+    const mine = ++turn;
     clearTimeout(timer);
+    for (const promise of open) promise.leave();
+    open = new Set();
+    return () => mine === turn;
+  };
+  const ask = (name, request) => {
+    const promise = call(name, request), mine = open;
+    mine.add(promise);
+    promise.catch(() => {}).finally(() => mine.delete(promise));
+    return promise;
+  };
+  const read = async (request, at = {}) => {
+    const isCurrent = begin();
     answers.classList.add("stale");
     let answer;
     try {
-      answer = await call("machine", request);
+      answer = await ask("machine", request);
     } catch (problem) {
-      if (isCurrent()) trouble.textContent = problem.message;
+      if (!isCurrent()) return;
+      trouble.textContent = problem.message;
+      for (const busy of answers.querySelectorAll("[aria-busy=true]")) { busy.replaceChildren(); busy.setAttribute("aria-busy", "false"); }
       return;
     }
     if (!isCurrent()) return;
@@ -63,7 +77,7 @@ export const start = async (root, call) => {
   const showValues = (isCurrent) => folded("Values of this model", element("div", { class: "fields" }, now.parameters.map((name) => element("p", { class: "field" },
     element("label", { for: `value-${name}` }, name), element("input", { type: "text", id: `value-${name}`, value: values[name], maxlength: 100, onchange: (event) => {
       values = { ...values, [name]: event.target.value.trim() };
-      if (isCurrent()) answerAll(now, isCurrent);
+      answerAll(now, begin());
     } })))));
   const showEditor = (request, at) => {
     const { parts } = now;
@@ -73,26 +87,32 @@ export const start = async (root, call) => {
     bench.show("parts" in request ? request.parts : parts, at);
     showList(parts);
   };
-  // Slow questions of a kind one after the other, and only those of the machine that is there: so a worker is free for the next change.
-  const inTurn = (queue, isCurrent, work) => {
-    queues[queue] = queues[queue].then(() => (isCurrent() ? work() : null));
-    return queues[queue];
+  // Slow questions one after the other, and only those of the machine that is there: so workers are free for the next change.
+  const later = (isCurrent, work) => {
+    queue = queue.then(() => (isCurrent() ? work() : null));
+    return queue;
   };
-  const later = (isCurrent, work) => inTurn("more", isCurrent, work);
-  const answerAll = async ({ text: of, sensors }, isCurrent) => {
+  const answerAll = async ({ text: of, sensors, count }, isCurrent) => {
+    const apart = element("div", { class: "answer" }), more = element("div", { class: "answer" });
     answers.classList.remove("stale");
-    next.replaceChildren();
+    next.replaceChildren(apart, more);
     const [known, rows] = await Promise.all([
-      inTurn("known", isCurrent, () => waitFor(determined, "Deciding", call("determine", { text: of }), showDetermined(of), isCurrent)),
-      waitFor(alike, "Looking up", call("alike", { text: of, values }), (answer) => showAlike(answer, of, isCurrent), isCurrent)]);
+      waitFor(determined, "Deciding which of them have one value", ask("determine", { text: of }), showDetermined(of), isCurrent, count ? [element("p", { class: "count" }, count)] : []),
+      waitFor(alike, "Looking up", ask("alike", { text: of, values }), (answer) => showAlike(answer, of, isCurrent), isCurrent).then((found) => {
+        if (isCurrent() && found) showApart(apart, of, sameOf(found), isCurrent);
+        return found;
+      })]);
     if (!isCurrent()) return;
-    const row = rows?.rows.find(({ others }) => others.some(({ relation }) => relation === "indistinguishable"));
-    const same = (row?.others ?? []).filter(({ relation }) => relation === "indistinguishable").map(({ name }) => name).slice(0, MOST);
-    const isGlobal = known?.levels.every(({ level }) => level === "global");
-    const nothing = `${!known ? "Not known: whether all parameters can be determined was not decided." : isGlobal ? "Every parameter has one value." : "Not every parameter has one value; what would determine more is not searched for models of this kind."} ${
-      !rows ? "" : rows.rows.length ? "No listed model is known to be indistinguishable from it." : "No catalogue lists this model: whether another one looks the same is not known."}`;
-    await showNext({ of, same, sensors: known && !isGlobal ? sensors : [], nothing }, isCurrent);
+    const isGlobal = known?.levels.every(({ level }) => level === "global"), masses = known && !isGlobal ? sensors : [];
+    showSensors(more, of, masses, isCurrent);
+    if (!masses.length && !(rows && sameOf(rows).length)) next.replaceChildren(element("p", {}, nothingNext(known, isGlobal, rows)));
   };
+  const sameOf = ({ rows }) => {
+    const isSame = ({ relation }) => relation === "indistinguishable", row = rows.find(({ others }) => others.some(isSame));
+    return (row?.others ?? []).filter(isSame).map(({ name }) => name).slice(0, MOST);
+  };
+  const nothingNext = (known, isGlobal, rows) => `${!known ? "Not known: whether all parameters can be determined was not decided." : isGlobal ? "Every parameter has one value." : "Not every parameter has one value; what would determine more is not searched for models of this kind."} ${
+    !rows ? "" : rows.rows.length ? "No listed model is known to be indistinguishable from it." : "No catalogue lists this model: whether another one looks the same is not known."}`;
   const showDetermined = (of) => (answer) => {
     const groups = Map.groupBy ? Map.groupBy(answer.levels, ({ level }) => level) : answer.levels.reduce((map, one) => map.set(one.level, [...(map.get(one.level) ?? []), one]), new Map());
     return [
@@ -111,25 +131,24 @@ export const start = async (root, call) => {
   const showOther = ({ name, relation, drawing: drawn }, of, isCurrent, isWithValues = true) => {
     const found = element("div", { class: "answer" }), pair = { left: of, right: name };
     if (isWithValues && relation === "indistinguishable")
-      later(isCurrent, () => waitFor(found, "Values", call("values", { ...pair, values }), ({ given, sets, extent, command }) => [
+      later(isCurrent, () => waitFor(found, "Values", ask("values", { ...pair, values }), ({ given, sets, extent, command }) => [
         sets.length ? valuesTable(given, sets, ["this machine", "the other"]) : element("p", {}, "No values were found."), element("p", { class: "hint" }, sets.length ? `Same response; ${extent}.` : extent), commandFold(command)], isCurrent));
     return element("li", {},
       element("p", {}, element("strong", {}, name), " ", element("span", { class: `key ${relation}`, "aria-hidden": "true" }), ` ${relation === "sometimes" ? "the same for some values" : relation === "indistinguishable" ? "indistinguishable" : "not decided"}`),
       picture(drawn), found,
-      element("p", { class: "buttons" }, element("button", { type: "button", class: "plainbutton", onclick: () => askCompare(of, name) }, "Compare both"), " ", evidenceButton(call, pair)));
+      element("p", { class: "buttons" }, element("button", { type: "button", class: "plainbutton", onclick: () => showBoth(of, name) }, "Compare both"), " ", evidenceButton(call, pair)));
   };
-  const showNext = async ({ of, same, sensors, nothing }, isCurrent) => {
-    const apart = element("div", { class: "answer" }), more = element("div", {});
-    next.replaceChildren(apart, more);
-    if (!same.length && !sensors.length) next.replaceChildren(element("p", {}, nothing));
-    if (same.length)
-      later(isCurrent, () => waitFor(apart, "What separates the models that look the same", call("separate", { text: of, others: same }), ({ sentence, least, command }) => [
-        element("h3", {}, "To separate it from what looks the same"), element("p", {}, sentence), element("p", {}, `If it is this machine: ${least}.`), commandFold(command)], isCurrent));
+  const showApart = (apart, of, same, isCurrent) => {
+    if (!same.length) return;
+    later(isCurrent, () => waitFor(apart, "What separates the models that look the same", ask("separate", { text: of, others: same }), ({ sentence, least, command }) => [
+      element("h3", {}, "To separate it from what looks the same"), element("p", {}, sentence), element("p", {}, `If it is this machine: ${least}.`), commandFold(command)], isCurrent));
+  };
+  const showSensors = (more, of, sensors, isCurrent) => {
     if (sensors.length) more.append(element("h3", {}, "A further sensor, to determine more parameters"));
     for (const mass of sensors) {
       const line = element("div", { class: "answer" });
       more.append(line);
-      later(isCurrent, () => waitFor(line, `Sensor at mass ${mass}`, call("sensor", { text: of, mass }), ({ sentence, certainty, command }) => [
+      later(isCurrent, () => waitFor(line, `Sensor at mass ${mass}`, ask("sensor", { text: of, mass }), ({ sentence, certainty, command }) => [
         element("p", {}, element("strong", {}, `Sensor at mass ${mass}: `), sentence, element("span", { class: "hint" }, ` ${certainty}`)), commandFold(command)], isCurrent));
     }
   };

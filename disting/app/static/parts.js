@@ -31,6 +31,23 @@ export const removeJoint = (parts, a, b) => ({ ...parts, joints: parts.joints.fi
 
 export const changeJoint = (parts, at, change) => ({ ...parts, joints: parts.joints.map((joint, i) => (i === at ? { ...joint, ...change } : joint)) });
 
+// A name that no gear of the machine has.
+const freeRatio = ({ joints }) => {
+  for (let i = 1; ; i += 1) {
+    const name = i > 1 ? `i${i}` : "i";
+    if (!joints.some(({ ratio }) => ratio === name)) return name;
+  }
+};
+
+// A gear at the end b of the joint of two masses, which gets one if there is none; a gear that is there goes.
+export const toggleGear = (parts, a, b) => {
+  if (a === GROUND || b === GROUND || a === b) return parts;
+  const isOne = (joint) => isBetween(joint, a, b), old = parts.joints.find(isOne);
+  if (!old) return join(parts, a, b, "both", freeRatio(parts));
+  const ratio = old.ratio ? "" : freeRatio(parts), [from, to] = ratio || a < b ? [a, b] : [b, a];
+  return { ...parts, joints: parts.joints.map((joint) => (joint === old ? { ...joint, from, to, ratio } : joint)) };
+};
+
 // A force or sensor ("forces", "sensors") between two nodes; where it is already it goes.
 export const togglePort = (parts, side, plus, minus = GROUND) => {
   const isSame = (ends) => ends[0] === plus && ends[1] === minus;

@@ -1,0 +1,55 @@
+"""Workers of quick calls: who is gone needs no answer."""
+
+import asyncio
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from disting.app.interface import CALLS
+from disting.app.jobs import Pool
+from disting.app.workers import Failure, Setting
+
+pytestmark = pytest.mark.full
+STAR = {"text": "1=2, 2=3, 2=4, 2=5; F1; S1"}  # takes a minute
+
+
+async def leave_and_ask(folder: Path) -> tuple[int, dict]:
+    """Status of a call whose client goes when its answer has begun, and the answer of the next call
+    by the only worker.
+    """
+    pool = Pool(Setting(folder), 1)
+    try:
+        pool.start()
+        await pool.answer(CALLS["machine"], STAR)
+        gone = asyncio.Event()
+        asking = asyncio.ensure_future(pool.answer(CALLS["determine"], STAR, gone.wait))
+        await asyncio.sleep(0.1)
+        gone.set()
+        with pytest.raises(Failure) as left:
+            await asking
+        return left.value.status, await pool.answer(CALLS["machine"], STAR)
+    finally:
+        await pool.end()
+
+
+def test_a_call_whose_client_is_gone_is_ended_and_the_next_one_answered(tmp_path: Path) -> None:
+    status, answer = asyncio.run(leave_and_ask(tmp_path))
+    assert status == 500  # ended; one that was too slow has 504
+    assert answer["count"].startswith("13 parameters")
+
+
+async def leave_before(folder: Path) -> int:
+    """Status of a call whose client has gone while it waited for a worker."""
+    pool = Pool(Setting(folder, loads=False), 1)
+    pool.start()
+    try:
+        with pytest.raises(Failure) as left:
+            await pool.answer(CALLS["open"], {"page": "data"}, partial(asyncio.sleep, 0))
+        return left.value.status
+    finally:
+        await pool.end()
+
+
+def test_a_call_whose_client_goes_before_a_worker_is_free_is_not_begun(tmp_path: Path) -> None:
+    assert asyncio.run(leave_before(tmp_path)) == 499
