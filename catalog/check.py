@@ -629,6 +629,8 @@ SHOWS = {
     **dict.fromkeys(("counts", "forms", "ranks", "constants", "refuted", "shared"), (DIFFERENT,)),
     **dict.fromkeys(("no equivalent", "inequality"), (DIFFERENT,)),
     **dict.fromkeys(("renaming", "free-choice", "embedding", "solved"), (SAME,)),
+    **dict.fromkeys(("supermodel", "odd fibres"), (SAME,)),
+    "dead time": (DIFFERENT,),
     **dict.fromkeys(("full-parts", "explicit", "theorem", "real factors"), (SAME,)),
     **dict.fromkeys(("witnesses", "real witnesses"), (SOMETIMES,)),
     "fibre": (DIFFERENT, SAME),
@@ -1507,12 +1509,16 @@ CERTAINTY = {
     **dict.fromkeys(("theorem", "interlacing", "real factors"), "theorem"),
     **dict.fromkeys(("by-parts", "forms", "outside", "pole-sharing"), "proven bounded"),
     **dict.fromkeys(("excluded", "renaming"), "proven theorem"),
-    "fibre": "bounded",
+    **dict.fromkeys(("constants", "full-parts"), "proven"),
+    **dict.fromkeys(("fibre", "no-equivalent"), "bounded"),
+    "dead time": "theorem",
+    "supermodel": "proven bounded",
+    "odd fibres": "theorem proven bounded",
 }
 SHARES = {"excluded": "never", "theorem": "always", "points": "sometimes"}
-SHARES |= {"interlacing": "always sometimes"}
+SHARES |= {"no-equivalent": "never", "interlacing": "always sometimes"}
 PLACES = {"tf": "tf", "markov": "markov", "structure": "structure", "fibre": "fibre"}
-PLACES |= {"embedding": "structure", "solved": "fibre"}
+PLACES |= {"embedding": "structure", "supermodel": "structure", "solved": "fibre"}
 
 
 BITS = 192  # the program's bounds rest on at most three points modulo primes of 64 bits
@@ -2109,7 +2115,7 @@ def overstated(part, e, pair):
     return relation_of(part["relation"] or "none", e, pair)
 
 
-ONLY_COMPLEX = ("free-choice", "embedding", "solved", "full-parts", "fibre")
+ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
 
 
 FILES = {

@@ -11,10 +11,15 @@ import subprocess
 import sys
 from importlib import resources
 from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import get_args
 
 import pytest
 
+import disting
 from disting.catalogs.files import shipped_folder
+from disting.evidence.kinds import Evidence, InclusionEvidence
+from disting.evidence.positive import PositiveEvidence
 
 PATH = shipped_folder() / "check.py"
 
@@ -409,6 +414,45 @@ def test_the_guide_names_every_kind_of_evidence(check):
     kinds = {*check.CHECKS, *check.CERTAINTY, *check.SHOWS}
     assert len(kinds) > 30
     assert kinds - named == set()
+
+
+# kinds that only single verdicts of several experiments, of ranges or of limits have
+OF_VERDICTS = {
+    "both ways", "box", "fibre under experiments", "minor", "missing-elements", "only one",
+}  # fmt: skip
+
+
+def test_every_kind_that_a_catalogue_may_hold_is_known(check):
+    """A kind that is not known here would make the catalogue of a larger size wrong."""
+    kinds = {k.kind for union in (Evidence, InclusionEvidence, PositiveEvidence)
+             for k in get_args(union)}  # fmt: skip
+    assert kinds - check.CERTAINTY.keys() == OF_VERDICTS
+
+
+FAULTS = [
+    ("a coefficient of the recurrence of determinants", "disting/algebra/determinants.py",
+     "off[i - 1] * minors[-2] if i", "off[i - 1] * minors[-2] * 2 if i"),
+    ("condition 7 holds whatever the ranks are", "disting/conditions/sufficient.py",
+     "if not left.rank == right.rank == len(left.form):", "if False:"),
+]  # fmt: skip
+
+
+@pytest.mark.full
+@pytest.mark.parametrize(("what", "file", "right", "wrong"), FAULTS, ids=[f[0] for f in FAULTS])
+def test_a_fault_of_the_engine_is_found_in_what_it_builds(tmp_path, what, file, right, wrong):
+    """The engine is copied, one line is changed, and a small catalogue is built anew."""
+    package = Path(disting.__file__).parent
+    shutil.copytree(package, tmp_path / "disting", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(shipped_folder(), tmp_path / "catalog")
+    text = (tmp_path / file).read_text(encoding="utf-8")
+    assert text.count(right) == 1
+    (tmp_path / file).write_text(text.replace(right, wrong), encoding="utf-8")
+    command = "-m", "disting", "catalog", "build", "2", "--out", "built", "--no-cache"
+    env = os.environ | {"PYTHONPATH": str(tmp_path)}
+    subprocess.run([sys.executable, *command], cwd=tmp_path, env=env, check=True)
+    done = run(tmp_path / "built")
+    assert done.returncode == 1
+    assert "wrong" in done.stdout, what
 
 
 @pytest.mark.full
