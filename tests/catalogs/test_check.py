@@ -526,6 +526,54 @@ def test_evidence_on_limits_shows_no_relation(check):
     assert is_wrong(check, [CHAIN, larger], ranks, **bounded)
 
 
+def is_inclusion_wrong(check, name, side, left, right, inclusion, e, certainty="proven"):
+    """Return True if a statement on limits of a pair of chains in a file of this name is wrong."""
+    table, told = check.Table(), {"inclusion": inclusion, "certainty": certainty, "evidence": e}
+    told |= {"safety": 120 if certainty == "bounded" else 0, "reason": ""}
+    models = [check.chain(*indices, "undamped" not in name) for indices in (left, right)]
+    check.claim(table, "", side, told, check.pair_of(*models), "")
+    return bool(table.wrong)
+
+
+def test_degrees_exclude_a_limit_only_where_they_are_larger(check):
+    """A mass more: the smaller chain is a limit of the larger one, though their degrees differ."""
+    one, two = (1, 0, 0, 1, 0, 1), (2, 0, 0, 1, 0, 1)
+    apart = (2, 0, 0, 1, 0, 2)
+    for left, right, counts, is_wrong in (
+        (one, two, ([0, 0], [2, 2]), True),
+        (one, apart, ([0, 0], [0, 2]), True),
+        (apart, two, ([0, 2], [2, 2]), True),
+        ((3, 0, 0, 1, 0, 3), two, ([0, 4], [2, 2]), False),
+    ):
+        e = {"kind": "counts", "left": counts[0], "right": counts[1]}
+        pair = check.pair_of(check.chain(*left, False), check.chain(*right, False))
+        assert check.evidence(pair, e).status == check.CHECKED
+        found = is_inclusion_wrong(check, "undamped", "closure", left, right, "neither", e)
+        assert found == is_wrong
+
+
+OF_ONE_SIDE = {"parts-inside", "full-image", "relative-degrees", "refuted", "fibre"}
+
+
+@pytest.mark.parametrize("kind", ["damped", "undamped"])
+def test_evidence_on_limits_says_nothing_on_finite_values(check, kind):
+    """Of a shipped file, each statement put in the place of the other one."""
+    lines = records(f"chains-3-{kind}")[1:]
+    models = {r["model"]: (3, *r["indices"]) for r in lines if "model" in r}
+    stated = [
+        (models[r["left"]], models[r["right"]], side, told)
+        for r in lines
+        for side, told in r.get("inclusions", {}).items()
+        if (told["evidence"] or {}).get("kind") in OF_ONE_SIDE
+    ]
+    assert len({told["evidence"]["kind"] for *_, told in stated}) > 1
+    for left, right, side, told in stated:
+        rest = left, right, told["inclusion"], told["evidence"], told["certainty"]
+        other = {"closure": "image", "image": "closure"}[side]
+        assert not is_inclusion_wrong(check, kind, side, *rest)
+        assert is_inclusion_wrong(check, kind, other, *rest)
+
+
 def test_signs_of_coefficients_with_a_common_factor_show_nothing(check):
     """The loose part 2~3 has no influence on the response, only on the determinants."""
     pair = check.pair_of(check.network("#~1, 2~3; F1; S1"), check.network("#~1, 1~2; F1; S1"))
