@@ -629,6 +629,8 @@ SHOWS = {
     **dict.fromkeys(("counts", "forms", "ranks", "constants", "refuted", "shared"), (DIFFERENT,)),
     **dict.fromkeys(("no equivalent", "inequality"), (DIFFERENT,)),
     **dict.fromkeys(("renaming", "free-choice", "embedding", "solved"), (SAME,)),
+    **dict.fromkeys(("supermodel", "odd fibres"), (SAME,)),
+    "dead time": (DIFFERENT,),
     **dict.fromkeys(("full-parts", "explicit", "theorem", "real factors"), (SAME,)),
     **dict.fromkeys(("witnesses", "real witnesses"), (SOMETIMES,)),
     "fibre": (DIFFERENT, SAME),
@@ -1244,17 +1246,29 @@ INSIDE = ("parts-inside", "fibre")  # of the side that is given
 NO_LIMIT = ("counts", "larger-projection", "too-large", "relative-degrees", "outside")
 NO_LIMIT += ("pole-sharing", "refuted")
 WAYS = {True: "right-in-left", False: "left-in-right", None: ""}
+ONLY_IMAGE = ("relative-degrees", "refuted", "fibre")  # of finite values other than zero
 
 
-def relation_of_inclusion(pair, e, found):
-    """Evidence that speaks for a limit names the larger side; what `inclusion` says must fit."""
+def shows_inclusion(slot, pair, e, found):
+    """Evidence that speaks for a limit names the larger side; what `inclusion` says must fit.
+    Limits say nothing on finite values (`image`), nor these on limits (`closure`).
+    """
     kind = e["kind"]
+    if kind in (ONLY_IMAGE if slot == "closure" else (*LIMITS, "parts-inside")):
+        return False
+    if kind == "counts":
+        return found == "neither" and exceeds(*sides(pair)) and exceeds(*sides(pair)[::-1])
     if kind in LIMITS:
         return found == WAYS[e["left_is_larger"]]
     if kind in NO_LIMIT:
         return found == "neither"
     inside = WAYS[not e["left_given"]]
     return found == inside or (kind in ("fibre", "by-parts") and found == "neither")
+
+
+def exceeds(a, b):
+    """Whether the first model cannot be a limit of the other one: a degree or the rank exceeds."""
+    return a.full_rank > b.full_rank or any(x > y for x, y in zip(a.degrees, b.degrees))
 
 
 def full_image(pair, e):
@@ -1304,11 +1318,9 @@ def relative_degrees(pair, e):
 
 def too_large(pair, e):
     """The chain with fewer masses has as many determinable parameters or more."""
-    a, b = sides(pair)
-    found, (small, big) = [a.full_rank, b.full_rank], (0, 1)
-    if indices(pair.left)[0] > indices(pair.right)[0]:
-        small, big = 1, 0
-    return result(found == [e["left"], e["right"]] and found[small] >= found[big], "ranks")
+    found, sizes = [x.full_rank for x in sides(pair)], [indices(m)[0] for m in pair[:2]]
+    (few, small), (many, big) = sorted(zip(sizes, found))
+    return result(found == [e["left"], e["right"]] and few < many and small >= big, "ranks")
 
 
 def meeting(pair, e):
@@ -1507,12 +1519,16 @@ CERTAINTY = {
     **dict.fromkeys(("theorem", "interlacing", "real factors"), "theorem"),
     **dict.fromkeys(("by-parts", "forms", "outside", "pole-sharing"), "proven bounded"),
     **dict.fromkeys(("excluded", "renaming"), "proven theorem"),
-    "fibre": "bounded",
+    **dict.fromkeys(("constants", "full-parts"), "proven"),
+    **dict.fromkeys(("fibre", "no-equivalent"), "bounded"),
+    "dead time": "theorem",
+    "supermodel": "proven bounded",
+    "odd fibres": "theorem proven bounded",
 }
 SHARES = {"excluded": "never", "theorem": "always", "points": "sometimes"}
-SHARES |= {"interlacing": "always sometimes"}
+SHARES |= {"no-equivalent": "never", "interlacing": "always sometimes"}
 PLACES = {"tf": "tf", "markov": "markov", "structure": "structure", "fibre": "fibre"}
-PLACES |= {"embedding": "structure", "solved": "fibre"}
+PLACES |= {"embedding": "structure", "supermodel": "structure", "solved": "fibre"}
 
 
 BITS = 192  # the program's bounds rest on at most three points modulo primes of 64 bits
@@ -1568,7 +1584,7 @@ def unfounded(slot, told, e, pair):
         fits = told["share"] in SHARES[kind].split()
         return "" if fits else "a share that its evidence does not show"
     if "inclusion" in told:
-        fits = relation_of_inclusion(pair, e, told["inclusion"])
+        fits = shows_inclusion(slot, pair, e, told["inclusion"])
         return "" if fits else "an inclusion that its evidence does not show"
     return relation_of(told.get("relation"), e, pair)
 
@@ -2109,7 +2125,7 @@ def overstated(part, e, pair):
     return relation_of(part["relation"] or "none", e, pair)
 
 
-ONLY_COMPLEX = ("free-choice", "embedding", "solved", "full-parts", "fibre")
+ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
 
 
 FILES = {
