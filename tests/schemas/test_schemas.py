@@ -163,6 +163,7 @@ def test_what_a_command_writes_is_what_its_schema_says(
     valid(json.loads((folder / "out.json").read_text(encoding="utf-8")), of)
 
 
+@pytest.mark.full
 def test_a_catalogue_is_what_its_schema_says() -> None:
     for damped in (False, True):
         valid(json.loads(catalog(3, damped=damped).to_json()), Format.CATALOGUE)
@@ -197,6 +198,7 @@ def test_every_format_has_a_schema_of_its_own_and_all_are_written_somewhere() ->
     assert told == set(Format)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("of", Format)
 def test_another_field_or_a_missing_one_is_none_of_the_format(of: Format) -> None:
     """A schema that lets everything pass says nothing."""
