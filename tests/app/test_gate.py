@@ -49,6 +49,7 @@ def test_the_first_address_sets_the_cookie_and_leads_on():
     assert headers["set-cookie"] == "disting-8000=secret; HttpOnly; SameSite=Strict; Path=/"
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("change", "method", "status"),
     [

@@ -50,6 +50,7 @@ def run(*paths):
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.full
 def test_it_needs_nothing_but_python():
     done = run(shipped_folder() / "chains-2-undamped.jsonl")
     assert done.returncode == 0, done.stdout
@@ -383,6 +384,7 @@ def test_lies_of_classes_with_dampers_are_refused(check, tmp_path, what, lie):
     assert table_of(check, tmp_path, "dampers-3-damped", lie(records("dampers-3-damped"))).wrong
 
 
+@pytest.mark.full
 def test_classes_with_dampers_are_told_apart_by_dependences(check, tmp_path):
     """Of 528 pairs of classes all but 17 differ by what depends on what."""
     counts = table_of(check, tmp_path, "dampers-3-damped", records("dampers-3-damped")).counts
@@ -402,6 +404,7 @@ def test_formulas_over_real_values_are_no_finding_over_positive_ones(check):
         assert bool(table.wrong) == wrong
 
 
+@pytest.mark.full
 def test_a_file_that_is_none_is_wrong(check, tmp_path):
     path = tmp_path / "chains-2-damped.jsonl"
     path.write_text("{}\nnone", encoding="utf-8")

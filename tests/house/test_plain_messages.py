@@ -109,6 +109,7 @@ def test_a_phrase_is_found() -> None:
     assert list(page_texts(page)) == [(2, "no {} is told")]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("room", sorted({path.partition("/")[0] for path in modules()}))
 def test_messages_are_in_plain_words(room: str) -> None:
     found = {

@@ -354,6 +354,7 @@ def test_the_keyboard_moves_opens_and_closes(visit) -> None:  # type: ignore[no-
     assert tab.evaluate("document.activeElement.getAttribute('role')") == "gridcell"
 
 
+@pytest.mark.full
 def test_a_structures_panel_lists_what_is_not_told_apart(visit, small: DamperFamily) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A3")
     assert "fall into 2 groups that are distinguishable" in tab.inner_text("#detail .why")
@@ -405,6 +406,7 @@ def test_nothing_of_the_panel_is_cut_off(visit, width: int) -> None:  # type: ig
             ), path
 
 
+@pytest.mark.full
 def test_without_script_the_tables_are_there(browser, site: Path) -> None:  # type: ignore[no-untyped-def]
     context = browser.new_context(java_script_enabled=False)
     tab = context.new_page()

@@ -82,6 +82,7 @@ def test_what_tells_it_apart_adds_up(shipped: Catalog) -> None:
         assert sum(count for _, count in reasons_apart(found)) == apart  # type: ignore[arg-type]
 
 
+@pytest.mark.full
 def test_no_page_says_that_no_experiment_tells_what_some_values_do_tell_apart() -> None:
     """A6 of four masses without dampers: A2 does the same for some of its positive parameters
     only.
@@ -138,6 +139,7 @@ def test_a_limit_case_says_what_follows() -> None:
     )
 
 
+@pytest.mark.full
 def test_a_distinguishable_pair_may_be_one_sided() -> None:
     """Some positive models of the smaller rank behave like a larger one: then no experiment
     rules the larger one out.

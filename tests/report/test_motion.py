@@ -507,5 +507,6 @@ def test_less_motion_is_respected(visit) -> None:  # type: ignore[no-untyped-def
     tab.wait_for_function("() => +document.getElementById('time').value > 0")
 
 
+@pytest.mark.full
 def test_the_pages_stay_small(site: Path) -> None:
     assert (site / SMALL).stat().st_size < 120_000

@@ -118,6 +118,7 @@ def test_embedded_data_give_the_verdicts_back(shipped: Catalog, text: str) -> No
             assert formula == verdict.evidence.formula
 
 
+@pytest.mark.full
 def test_counts_are_printed_as_in_the_paper() -> None:
     text = page(catalog(3, damped=False))
     assert (
@@ -128,6 +129,7 @@ def test_counts_are_printed_as_in_the_paper() -> None:
     )
 
 
+@pytest.mark.full
 def test_hostile_text_stays_text() -> None:
     records = json.loads(json.dumps(list(catalog(3, damped=False).records)))
     records[0]["note"] = HOSTILE
@@ -174,6 +176,7 @@ def test_the_same_bytes_again(shipped: Catalog, text: str) -> None:
     assert page(catalog(shipped.n_masses, damped=shipped.damped)) == text
 
 
+@pytest.mark.full
 def test_the_headline_speaks_of_positive_parameters_and_names_the_domain_of_every_count() -> None:
     text = " ".join(Outline(page(catalog(4, damped=False))).text.split())
     assert (
@@ -189,6 +192,7 @@ def test_the_headline_speaks_of_positive_parameters_and_names_the_domain_of_ever
     assert text.index("Over positive parameters") < text.index("Over complex parameters")
 
 
+@pytest.mark.full
 def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_its_own_sentence() -> (
     None
 ):
@@ -204,7 +208,7 @@ def test_groups_are_over_positive_parameters_and_what_depends_on_the_values_has_
     assert said in text
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_groups_say_where_special_values_are_left_aside(damped: bool) -> None:
     """41 pairs of groups of the undamped models of 4 masses, none of the damped ones."""
@@ -227,6 +231,7 @@ def test_the_start_page_says_it_of_its_example(n: int, damped: bool) -> None:
     )
 
 
+@pytest.mark.full
 def test_the_order_by_groups_puts_what_is_related_side_by_side() -> None:
     """A2 and A6 are no group over positive parameters; over complex ones they are."""
     data = _data(page(catalog(4, damped=False)))
@@ -238,6 +243,7 @@ def test_the_order_by_groups_puts_what_is_related_side_by_side() -> None:
     ]  # type: ignore[index]
 
 
+@pytest.mark.full
 def test_the_first_view_is_that_of_positive_parameters() -> None:
     outline = Outline(page(catalog(4, damped=False)))
     chosen = [a["value"] for t, a in outline.elements if t == "option" and "selected" in a]

@@ -141,6 +141,7 @@ def test_synonyms_are_those_of_terms_of_the_glossary() -> None:
     assert set(SYNONYMS) <= set(glossary())
 
 
+@pytest.mark.full
 def test_every_term_of_the_glossary_is_used() -> None:
     """By the guide, the README, a definition of another term, a message or a page."""
     defined = glossary()

@@ -78,11 +78,13 @@ def _across(found: SizesCatalog) -> list[tuple[int, int]]:
     return [(i, j) for i, j in combinations(numbers, 2) if found.size(i) != found.size(j)]
 
 
+@pytest.mark.full
 def test_counts_are_those_of_the_pairs(found: SizesCatalog) -> None:
     rows = {(b.small, b.large): (b.inside, b.outside, b.unknown) for b in between(found)}
     assert rows == {(1, 2): (3, 0, 0), (1, 3): (11, 0, 0), (2, 3): (31, 2, 0)}
 
 
+@pytest.mark.full
 def test_every_pair_has_its_limit_in_words(found: SizesCatalog) -> None:
     told = limits(found)
     entries, of = told["entries"], _unpacked(told["of"])  # type: ignore[arg-type]
@@ -100,6 +102,7 @@ def test_every_pair_has_its_limit_in_words(found: SizesCatalog) -> None:
                 assert ("Neither is a limit" in said) == (kind == NO_LIMIT) and why
 
 
+@pytest.mark.full
 def test_the_page_says_it_in_words(found: SizesCatalog) -> None:
     text = sizes_page(found)
     assert "Chains of 1 to 3 masses, undamped" in text
@@ -115,6 +118,7 @@ def test_the_page_says_it_in_words(found: SizesCatalog) -> None:
     assert "unknown; in the others" not in text and 'id="open"' not in text
 
 
+@pytest.mark.full
 def test_what_is_not_known_is_said(opened: SizesCatalog) -> None:
     text = sizes_page(opened)
     assert "for <strong>1</strong> this is\nunknown" in text

@@ -196,6 +196,7 @@ def test_every_format_has_a_schema_of_its_own_and_all_are_written_somewhere() ->
     assert told == set(Format)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("of", Format)
 def test_another_field_or_a_missing_one_is_none_of_the_format(of: Format) -> None:
     """A schema that lets everything pass says nothing."""
