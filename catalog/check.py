@@ -242,7 +242,9 @@ def named(name, a, b):
 def model(text, elements, force, sensor, order=0, fixed=0, lag=False, delay=False, names=None):
     """`fixed`: power of s on the whole diagonal (1 for compartments)."""
     nodes = max([*force, *sensor, *(x for e in elements for x in (e.a, e.b))])
-    names = tuple(names or sorted({e.name for e in elements}))
+    names = tuple(names or sorted(e.name for e in elements))
+    if len(set(names)) < len(names):
+        raise ValueError(f"one name for two elements: {text}")
     exponents = tuple(sorted({e.exponent for e in elements if e.exponent}))
     ports = force, sensor
     return Model(text, names, tuple(elements), nodes, *ports, order, fixed, lag, delay, exponents)
@@ -277,16 +279,18 @@ def series_parallel(text):
     def lay(tree, a, b):
         if isinstance(tree, ast.Name):
             out.append(named(tree.id, a, b))
-        elif isinstance(tree, ast.Call):
+        elif isinstance(tree, ast.Call) and tree.func.id == "p":
             for branch in tree.args:
                 lay(branch, a, b)
-        else:
+        elif isinstance(tree, ast.BinOp):
             row = []
             while isinstance(tree, ast.BinOp):
                 row, tree = [tree.right, *row], tree.left
             ends = [a, *(next(fresh) for _ in row), b]
             for part, x, y in zip([tree, *row], ends, ends[1:]):
                 lay(part, x, y)
+        else:
+            raise ValueError(f"no circuit: {text}")
 
     lay(ast.parse(text, mode="eval").body, 1, 0)
     return model(text, out, (1, 0), (1, 0))
@@ -425,7 +429,7 @@ def value(m, values, s, p, z=(), scale=1):
     found = solved(m, values, s, p, z, scale, slopes=False)
     if found is None:
         return None
-    lag = (1 + values["T1"] * s) % p if m.lag else 1
+    lag = (1 + values["T1"] * pow(s, scale, p)) % p if m.lag else 1
     return found[0] * pow(found[1] * lag, -1, p) % p if lag else None
 
 
@@ -443,7 +447,7 @@ def agree(left, x, right, y, label, p, scale=2):
         return a is not None and a == value(right, y, s, p, {n: z[of[n]] for n in of}, scale)
 
     return (
-        left.delay == right.delay
+        (left.delay and x["Td"]) == (right.delay and y["Td"])
         and len(own) == len(others)
         and any(
             all(at_one(f"{label} {k}", dict(zip(order, own))) for k in range(3))
@@ -619,18 +623,29 @@ profile = lru_cache(maxsize=None)(Profile)
 
 Pair = namedtuple("Pair", "left right label scale")
 Result = namedtuple("Result", "status why")
-DISTINGUISHABLE, SAME = "distinguishable", "indistinguishable"
+DIFFERENT, SAME = "distinguishable", "indistinguishable"
 SOMETIMES = "sometimes"
 SHOWS = {
-    **dict.fromkeys(
-        ("counts", "forms", "ranks", "constants", "refuted", "shared"), DISTINGUISHABLE
-    ),
-    **dict.fromkeys(("no equivalent", "inequality"), DISTINGUISHABLE),
-    **dict.fromkeys(("renaming", "free-choice", "embedding", "solved"), SAME),
-    **dict.fromkeys(("full-parts", "explicit"), SAME),
-    **dict.fromkeys(("witnesses", "of-part"), SOMETIMES),
+    **dict.fromkeys(("counts", "forms", "ranks", "constants", "refuted", "shared"), (DIFFERENT,)),
+    **dict.fromkeys(("no equivalent", "inequality"), (DIFFERENT,)),
+    **dict.fromkeys(("renaming", "free-choice", "embedding", "solved"), (SAME,)),
+    **dict.fromkeys(("supermodel", "odd fibres"), (SAME,)),
+    "dead time": (DIFFERENT,),
+    **dict.fromkeys(("full-parts", "explicit", "theorem", "real factors"), (SAME,)),
+    **dict.fromkeys(("witnesses", "real witnesses"), (SOMETIMES,)),
+    "fibre": (DIFFERENT, SAME),
 }
-FINDING = {SAME: "holds", DISTINGUISHABLE: "fails", SOMETIMES: "sometimes"}
+FINDING = {SAME: "holds", DIFFERENT: "fails", SOMETIMES: "sometimes"}
+
+
+def core_of(e):
+    """The innermost evidence: of networks that stand for these."""
+    return core_of(e["inner"]) if "inner" in e else e
+
+
+def shows(e):
+    """Relations that evidence of this kind can show."""
+    return SHOWS.get(core_of(e)["kind"], ())
 
 
 def result(is_right, why):
@@ -707,6 +722,11 @@ def free_choice(pair, e):
     return result(right, "coefficients, ranks and constants computed again")
 
 
+def factors(m):
+    """What multiplies the response of the elements: a power of s, a lag, a dead time."""
+    return m.order, m.lag, m.delay
+
+
 def embedded(part, whole, numbering):
     """Whether the part's elements and ports are among those of the whole."""
     to = dict(map(tuple, numbering))
@@ -734,7 +754,7 @@ def embedding(pair, e):
     """
     left, right = pair.left, pair.right
     part, whole = (left, right) if e["left_is_submodel"] else (right, left)
-    fits = embedded(part, whole, e["numbering"])
+    fits = embedded(part, whole, e["numbering"]) and factors(part) == factors(whole)
     a, b = sides(pair)
     return result(fits and a.full_rank == b.full_rank == e["rank"], "elements and ranks compared")
 
@@ -930,8 +950,8 @@ def symbolic(m):
     """Coefficients of numerator and denominator by power of s, of a model whose elements stand in
     the matrix as they are: the determinant by permutations of rows, s the last exponent.
     """
-    if any(e.inverse or e.exponent for e in m.elements):
-        raise NotImplementedError("inverse elements")
+    if any(e.inverse or e.exponent for e in m.elements) or m.lag or m.delay:
+        raise NotImplementedError("inverse elements, lags")
     size, where = len(m.names) + 1, {n: i for i, n in enumerate(m.names)}
     a = [[Counter() for _ in range(m.nodes + 1)] for _ in range(m.nodes + 1)]
     for e in m.elements:
@@ -981,6 +1001,8 @@ def inequality(pair, e):
     signs = []
     for m in (given, other):
         num, den = symbolic(m)
+        if [max(num), max(den)] != profile(m, pair.scale).degrees:
+            return searched("a common factor of numerator and denominator")
         total = Counter()
         for number_, x, y in e["form"]:
             x, y = ((num if n[0] == "b" else den).get(int(n[1:]), Counter()) for n in (x, y))
@@ -1084,7 +1106,7 @@ def normal_form(m):
 
 def replaceable(a, b):
     """Whether two networks become the same when parts are labelled by what they can produce."""
-    return normal_form(a) == normal_form(b)
+    return factors(a) == factors(b) and normal_form(a) == normal_form(b)
 
 
 def inner_of(pair, e):
@@ -1093,8 +1115,9 @@ def inner_of(pair, e):
     inner = evidence(Pair(a, b, f"{pair.label} {e['left']} | {e['right']}", pair.scale), e["inner"])
     if inner.status == WRONG:
         return inner
-    likes = e["kind"] == "replaced" and a.order == b.order and pair.left.order == pair.right.order
-    if likes and replaceable(pair.left, a) and replaceable(pair.right, b):
+    likes = e["kind"] == "replaced" and factors(pair.left) == factors(pair.right)
+    alike = ((x, y._replace(order=x.order)) for x, y in zip(pair, (a, b)))
+    if likes and factors(a) == factors(b) and all(replaceable(x, y) for x, y in alike):
         larger = (e["left_larger"], e["right_larger"]) != (False, False)
         return result(False, "neither of these is larger") if larger else inner
     return searched("the networks that stand for these are not derived again")
@@ -1192,13 +1215,13 @@ def theorem(pair, e):
     """Whether the theorem's premises hold for two chains; those of networks are not derived."""
     a, b, name = pair.left, pair.right, e["name"]
     are_chains = is_chain(a) and is_chain(b)
-    if name == "replacement" and a.order == b.order and not are_chains and replaceable(a, b):
+    if name == "replacement" and not are_chains and replaceable(a, b):
         return Result(CHECKED, "parts that can replace each other")
     plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
     if not plain or name not in SAME_BY:
         return searched(f"theorem {name}: its premises are not derived again")
-    same_size = indices(a)[0] == indices(b)[0] and indices(a)[6] == indices(b)[6]
-    return result(same_size and same_by(a, b, name), f"premises of {name}")
+    alike = factors(a) == factors(b) and all(indices(a)[i] == indices(b)[i] for i in (0, 6))
+    return result(alike and same_by(a, b, name), f"premises of {name}")
 
 
 def same_by(a, b, name):
@@ -1223,17 +1246,29 @@ INSIDE = ("parts-inside", "fibre")  # of the side that is given
 NO_LIMIT = ("counts", "larger-projection", "too-large", "relative-degrees", "outside")
 NO_LIMIT += ("pole-sharing", "refuted")
 WAYS = {True: "right-in-left", False: "left-in-right", None: ""}
+ONLY_IMAGE = ("relative-degrees", "refuted", "fibre")  # of finite values other than zero
 
 
-def relation_of_inclusion(pair, e, found):
-    """Evidence that speaks for a limit names the larger side; what `inclusion` says must fit."""
+def shows_inclusion(slot, pair, e, found):
+    """Evidence that speaks for a limit names the larger side; what `inclusion` says must fit.
+    Limits say nothing on finite values (`image`), nor these on limits (`closure`).
+    """
     kind = e["kind"]
+    if kind in (ONLY_IMAGE if slot == "closure" else (*LIMITS, "parts-inside")):
+        return False
+    if kind == "counts":
+        return found == "neither" and exceeds(*sides(pair)) and exceeds(*sides(pair)[::-1])
     if kind in LIMITS:
         return found == WAYS[e["left_is_larger"]]
     if kind in NO_LIMIT:
         return found == "neither"
     inside = WAYS[not e["left_given"]]
     return found == inside or (kind in ("fibre", "by-parts") and found == "neither")
+
+
+def exceeds(a, b):
+    """Whether the first model cannot be a limit of the other one: a degree or the rank exceeds."""
+    return a.full_rank > b.full_rank or any(x > y for x, y in zip(a.degrees, b.degrees))
 
 
 def full_image(pair, e):
@@ -1283,11 +1318,9 @@ def relative_degrees(pair, e):
 
 def too_large(pair, e):
     """The chain with fewer masses has as many determinable parameters or more."""
-    a, b = sides(pair)
-    found, (small, big) = [a.full_rank, b.full_rank], (0, 1)
-    if indices(pair.left)[0] > indices(pair.right)[0]:
-        small, big = 1, 0
-    return result(found == [e["left"], e["right"]] and found[small] >= found[big], "ranks")
+    found, sizes = [x.full_rank for x in sides(pair)], [indices(m)[0] for m in pair[:2]]
+    (few, small), (many, big) = sorted(zip(sizes, found))
+    return result(found == [e["left"], e["right"]] and few < many and small >= big, "ranks")
 
 
 def meeting(pair, e):
@@ -1451,7 +1484,7 @@ def consistent(table, kind, where, verdicts):
     """
     of = classes([pair for pair, relation in verdicts.items() if relation == SAME])
     for (a, b), relation in verdicts.items():
-        if relation == DISTINGUISHABLE and of.get(a, a) == of.get(b, b):
+        if relation == DIFFERENT and of.get(a, a) == of.get(b, b):
             why = "distinguishable in one class"
             expect(table, kind, "classes", "transitivity", False, f"{where} {a} {b}", why)
     expect(table, kind, "classes", "transitivity", True, where)
@@ -1464,7 +1497,10 @@ def chain_record(table, kind, where, r, m):
     x = profile(m)
     found = (list(x.model.names), x.degrees, len(x.varying), x.full_rank)
     right = found == (r["parameters"], r["degrees"], r["free"], r["rank"])
-    expect(table, kind, "model", "degrees, rank", right, where)
+    whole = r["rank"] in (len(r["parameters"]), r["free"])  # no rank is larger
+    word, bits = r["rank_certainty"], r["safety"]
+    right = right and (word == "proven" if whole else word == "bounded" and 0 < bits <= BITS)
+    expect(table, kind, "model", "degrees, rank", right and (bits == 0 or not whole), where)
     is_same = r["identifiability"]["rank"] == x.full_rank
     found = searched("numbers of equivalents") if is_same else Result(WRONG, "rank")
     table.add(kind, "model", "identifiability", found, where)
@@ -1483,12 +1519,16 @@ CERTAINTY = {
     **dict.fromkeys(("theorem", "interlacing", "real factors"), "theorem"),
     **dict.fromkeys(("by-parts", "forms", "outside", "pole-sharing"), "proven bounded"),
     **dict.fromkeys(("excluded", "renaming"), "proven theorem"),
-    "fibre": "bounded",
+    **dict.fromkeys(("constants", "full-parts"), "proven"),
+    **dict.fromkeys(("fibre", "no-equivalent"), "bounded"),
+    "dead time": "theorem",
+    "supermodel": "proven bounded",
+    "odd fibres": "theorem proven bounded",
 }
 SHARES = {"excluded": "never", "theorem": "always", "points": "sometimes"}
-SHARES |= {"interlacing": "always sometimes"}
+SHARES |= {"no-equivalent": "never", "interlacing": "always sometimes"}
 PLACES = {"tf": "tf", "markov": "markov", "structure": "structure", "fibre": "fibre"}
-PLACES |= {"embedding": "structure", "solved": "fibre"}
+PLACES |= {"embedding": "structure", "supermodel": "structure", "solved": "fibre"}
 
 
 BITS = 192  # the program's bounds rest on at most three points modulo primes of 64 bits
@@ -1544,29 +1584,35 @@ def unfounded(slot, told, e, pair):
         fits = told["share"] in SHARES[kind].split()
         return "" if fits else "a share that its evidence does not show"
     if "inclusion" in told:
-        fits = relation_of_inclusion(pair, e, told["inclusion"])
+        fits = shows_inclusion(slot, pair, e, told["inclusion"])
         return "" if fits else "an inclusion that its evidence does not show"
-    relation = told.get("relation", SHOWS.get(kind))
-    if relation not in SHOWN.get(kind, (SHOWS.get(kind, SAME),)):
+    return relation_of(told.get("relation"), e, pair)
+
+
+def relation_of(relation, e, pair):
+    """What is wrong with a relation that rests on evidence; without one it is that of the kind."""
+    if not shows(e) or (relation or shows(e)[0]) not in shows(e):
         return "a relation that its evidence does not show"
     if relation == SAME and len({x.full_rank for x in sides(pair)}) > 1:
         return "the same, with unequal ranks"
     return ""
 
 
-SHOWN = {"fibre": (DISTINGUISHABLE, SAME), "real factors": (SAME,), "real witnesses": (SOMETIMES,)}
+def judged(found, false_of, *told):
+    """A result, or wrong if `false_of` finds that more is said than the evidence shows."""
+    try:
+        why = "" if found.status == WRONG else false_of(*told)
+    except UNREADABLE as reason:
+        why = f"cannot be read: {unreadable(reason)}"[:90]
+    return Result(WRONG, why) if why else found
 
 
 def claim(table, kind, slot, told, pair, where):
     """A verdict and its evidence; returns the relation that it gives."""
     if e := told.get("evidence"):
-        found = evidence(pair, e)
-        try:
-            why = "" if found.status == WRONG else unfounded(slot, told, e, pair)
-        except UNREADABLE as reason:
-            why = f"cannot be read: {unreadable(reason)}"[:90]
-        table.add(kind, slot, e["kind"], Result(WRONG, why) if why else found, where)
-        return told.get("relation", SHOWS.get(e["kind"], ""))
+        found = judged(evidence(pair, e), unfounded, slot, told, e, pair)
+        table.add(kind, slot, str(e.get("kind")), found, where)
+        return told.get("relation", *shows(e)[:1])
     right = told.get("relation", told.get("inclusion")) in ("undecided", "unknown")
     if not right or told["certainty"] or told["safety"] != 0 or not told.get("reason", "-"):
         expect(table, kind, slot, "none", False, where, "a verdict without evidence")
@@ -1593,6 +1639,13 @@ def chain_pair(table, kind, where, r, pair, verdicts):
         claim(table, kind, side, told, pair, where)
 
 
+def header(table, kind, name, head, **counted):
+    """The first line of a file: its name, its sensor, and numbers of what is in it."""
+    told = {"catalog": Path(name).stem, "sensor": "acceleration", **counted}
+    right = all(head[key] == told[key] for key in told if key in head or key in counted)
+    expect(table, kind, "file", "header", right and "catalog" in head, name)
+
+
 def chains_file(table, name, lines):
     """chains-*: a line a chain, then a line a pair; all pairs are there."""
     head, kind, models, verdicts = lines[0], "chains", {}, {}
@@ -1606,8 +1659,9 @@ def chains_file(table, name, lines):
             chain_pair(table, kind, where, r, pair_of(a, b), verdicts)
     whole = set(combinations(range(1, head["models"] + 1), 2))
     right = set(verdicts) == whole and len(lines) == 1 + len(models) + len(whole)
-    right = right and set(models.values()) == set(enumerated(head["n_masses"], head["damped"]))
-    expect(table, kind, "file", "all models, pairs", right, name)
+    every = dict(enumerate(enumerated(head["n_masses"], head["damped"]), 1))
+    expect(table, kind, "file", "all models, pairs", right and models == every, name)
+    header(table, kind, name, head, models=len(every))
     consistent(table, kind, name, verdicts)
     return {(n, head["n_masses"]): m for n, m in models.items()}
 
@@ -1633,7 +1687,9 @@ def sizes_file(table, name, lines):
         a, b = models[r["left"]], models[r["right"]]
         chain_pair(table, "sizes", f"{name}:{k}", r, pair_of(a, b), verdicts)
     wanted = {(a, b) for a, b in combinations(models, 2) if a[0] < b[0]}
-    expect(table, "sizes", "file", "all pairs", set(verdicts) == wanted, name)
+    right = set(verdicts) == wanted and len(lines) == 1 + len(wanted)
+    expect(table, "sizes", "file", "all pairs", right, name)
+    header(table, "sizes", name, head, models=len(models))
 
 
 def sets_of(n):
@@ -1673,6 +1729,7 @@ def damped_models(table, name, lines):
     right = [r["model"] for r in lines[1:]] == list(range(1, len(every) + 1))
     right = right and all(len(r[key]) == len(sets) for r in lines[1:] for key in stored)
     expect(table, "dampers", "file", "all models, sets", right, name)
+    header(table, "dampers", name, lines[0], models=len(every), sets=len(sets))
     for r, m in zip(lines[1:], every):
         for dampers, *told, rank in zip(sets, *(r[key] for key in stored)):
             own = chain(*indices(m)[:6], damped, dampers)
@@ -1848,15 +1905,6 @@ def chain_text(text):
     return chain(n, gap, am, ap, mm, mp, bool(got[7]), dampers)
 
 
-def of_verdict(table, kind, place, part, pair, where):
-    """The evidence of a verdict, if it has any, and whether it shows the relation."""
-    if e := part.get("evidence"):
-        found, relation = evidence(pair, e), SHOWS.get(e["kind"])
-        if relation and part.get("relation", relation) != relation:
-            found = Result(WRONG, "a relation that its evidence does not show")
-        table.add(kind, place, e["kind"], found, where)
-
-
 def finding(table, kind, where, told, pair, found=None):
     """[format, word, certainty, safety, evidence or null, reason]."""
     form, word, certainty, bits, e, reason = told
@@ -1865,12 +1913,10 @@ def finding(table, kind, where, told, pair, found=None):
         if not right or not isinstance(reason, str) or not reason:
             expect(table, kind, "finding", "none", False, where, "no evidence")
         return
-    found, core = found or evidence(pair, e), e
-    while "inner" in core:
-        core = core["inner"]
+    found, core = found or evidence(pair, e), core_of(e)
     if core.get("domain", "positive") != "positive":
         found = Result(WRONG, "evidence over other values")
-    if form != 10 or reason != "" or word != FINDING.get(SHOWS.get(core["kind"])):
+    if form != 10 or reason != "" or word not in map(FINDING.get, shows(e)):
         found = Result(WRONG, "a finding that its evidence does not show")
     if not is_certain(certainty, bits, e) or not is_certain(certainty, bits, core):
         found = Result(WRONG, "a certainty that its evidence does not give")
@@ -1878,6 +1924,8 @@ def finding(table, kind, where, told, pair, found=None):
 
 
 def settled_file(table, name, lines):
+    pairs = {tuple(sorted((r["left"], r["right"]))) for r in lines}
+    expect(table, "settled", "file", "once", len(pairs) == len(lines), name)
     for k, r in enumerate(lines, 1):
         pair, found = settled(json.dumps(r))
         finding(table, "settled", f"{name}:{k}", r["finding"], pair, found)
@@ -1932,6 +1980,11 @@ def over_positive(table, kind, where, r, pair):
     return expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
 
 
+def as_another(a, b):
+    """Whether one network gives the same as another one, seen by their parts."""
+    return a is b or (not a.fixed and replaceable(a, b))
+
+
 def networks_file(table, name, lines):
     """networks-*: a line a network with its class, then a line a pair of one class."""
     kind, models, groups, verdicts, told = name.split("-")[1], {}, {}, {}, {}
@@ -1951,13 +2004,18 @@ def networks_file(table, name, lines):
         network_pair(table, kind, where, r, pair_of(models[key[0]], models[key[1]], scale))
         if "complex" in r:
             verdicts[key] = r["complex"]["relation"]
-    different = len({m.text for m in models.values()}) == len(models) == lines[0]["models"]
+    different = len({m.text for m in models.values()}) == len(models)
     expect(table, kind, "file", "all models", different, name)
+    header(table, kind, name, lines[0], models=len(models), family=name[9:-6])
     for key, r in told.items():
         if "as" in r:
             of = tuple(sorted(r["as"]))
             right = of in told and "as" not in told[of] and groups[of[0]] == groups[key[0]]
-            expect(table, kind, "pair", "as another", right, f"{name} {key}")
+            alike = right and all(as_another(models[x], models[y]) for x, y in zip(key, r["as"]))
+            found = Result(CHECKED, "networks that replace each other")
+            found = found if alike else searched("that these give the same is not derived again")
+            found = found if right else Result(WRONG, "not of this class")
+            table.add(kind, "pair", "as another", found, f"{name} {key}")
             verdicts.setdefault(key, verdicts.get(of, "missing"))
     consistent(table, kind, name, verdicts)
     unlisted(table, kind, name, models, groups, verdicts, scale)
@@ -1990,19 +2048,23 @@ def candidates_file(table, name, lines):
             continue
         a = models[r["left"]]
         others = [models[i] for i in range(r["left"] + 1, len(models) + 1)]
-        if len(others) != len(r["relation"]):
+        signs = [r[key] for key in ("relation", "decided_by", "representation", "certainty")]
+        if {len(others)} != {*map(len, signs)}:
             expect(table, "candidates", "pair", "all pairs", False, f"{name}:{k}", "missing")
-        for b, sign, rule in zip(others, r["relation"], r["decided_by"]):
+        for b, sign, rule in zip(others, *signs[:2]):
+            found = result(sign == ".", "invariants")
             if rule == "1":
-                found = result(a.degrees != b.degrees and sign == ".", "degrees")
-            elif sign == "." and apart(a, b):
-                found = Result(CHECKED, "invariants")
-            else:
+                found = result(sum(a.degrees) != sum(b.degrees) and sign == ".", "degrees")
+            elif not apart(a, b):
                 found = searched("condition 5 or an exact decision, computed on demand")
             table.add("candidates", "pair", rule, found, f"{name}:{k}")
+    right = [r["left"] for r in lines[1:] if "left" in r] == list(range(1, len(models)))
+    expect(table, "candidates", "file", "all pairs", right, name)
+    header(table, "candidates", name, lines[0], models=len(models))
 
 
 def next_file(table, name, lines):
+    header(table, "next", name, lines[0], groups=len(lines) - 1)
     for k, r in enumerate(lines[1:], 2):
         for kind in ("sensor", "force", "inertia", "lock"):
             if kind in r:
@@ -2040,9 +2102,30 @@ def verdict_file(table, name, told):
     half = any(e.kind == "W" for m in (a, b) for e in m.elements)
     pair = pair_of(a, b, 2 if half else 1)
     for place, part in (("verdict", told), ("over complex", told.get("over_complex") or {})):
-        of_verdict(table, "verdict", place, part, pair, name)
+        if e := part.get("evidence"):
+            found = judged(evidence(pair, e), overstated, part, e, pair)
+            table.add("verdict", place, str(e.get("kind")), found, name)
     if not table.counts:
         table.add("verdict", "verdict", "none", searched("no evidence in the file"), name)
+
+
+def overstated(part, e, pair):
+    """What a single verdict says that its evidence does not show; "" if nothing."""
+    domain, core = part["domain"], core_of(e)
+    if core["kind"] not in CERTAINTY:
+        return ""  # not repeated here
+    if not is_certain(part["certainty"], part["safety"], e):
+        return "a certainty that its evidence does not give"
+    if part["decided_by"] not in ("admissible", condition(e)):
+        return "another condition than its evidence"
+    if core.get("domain", domain) != domain:
+        return "evidence over other values"
+    if domain != "complex" and part["relation"] == SAME and core["kind"] in ONLY_COMPLEX:
+        return "evidence over complex values"
+    return relation_of(part["relation"] or "none", e, pair)
+
+
+ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
 
 
 FILES = {

@@ -25,6 +25,7 @@ from disting.errors import CatalogError, InputError, of_type, printable, short
 from disting.quantities import Quantity
 
 PROVENANCE = "provenance.json"
+RECORDS = "records"  # name of the schema of lines of shipped files
 STREAM = re.compile(r"/(?:dev|proc/self)/fd/(\d+)")  # a stream of this process, not a place
 LARGEST = 50_000_000  # bytes of a file, unless its reader takes more
 PART = 1 << 20  # bytes that are read at once of what does not tell its size
@@ -291,7 +292,22 @@ def schema(of: Format) -> dict[str, Any]:
     >>> schema(Format.NEXT)["title"], sorted(schema(Format.NEXT)["$defs"])[:2]
     ('disting next 1', ['certainty', 'next'])
     """
-    own, definitions = _read_schema(of.short), _read_schema("definitions")
+    return _with_definitions(_read_schema(of.short))
+
+
+def record_schema() -> dict[str, Any]:
+    """JSON Schema of one line of a shipped file (`catalog/*.jsonl`), which needs no other file.
+    Each kind of file has a definition.
+
+    >>> [name for name in record_schema()["$defs"] if name.endswith("_line")][:3]
+    ['candidates_line', 'chains_line', 'dampers_line']
+    """
+    return _with_definitions(_read_schema(RECORDS))
+
+
+def _with_definitions(own: dict[str, Any]) -> dict[str, Any]:
+    """A schema with all definitions to which it refers, its own ones and those that are shared."""
+    definitions = _read_schema("definitions") | own.get("$defs", {})
     definitions |= {"quantity": {"enum": [sensor.value for sensor in Quantity]}}
     needed: dict[str, Any] = {}
     new = _definitions(own)

@@ -4,15 +4,31 @@ HYPOTHESIS_PROFILE=fresh draws new ones."""
 
 import gc
 import os
+import re
 import shutil
 import sys
 from collections import defaultdict
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import is_hypothesis_test, settings
 
 DEARER = "slow", "bench", "attack"
+MARKS_OF_FILE = re.compile(r"^pytestmark = (?:\[[^]]*\]|.*)", re.MULTILINE)
+# examples in documents and docstrings that take more than half a second
+DEAR_DOCUMENTS = {
+    "fit-details.md",
+    "gallery.md",
+    "machines.md",
+    "own-family.md",
+    "spectrum.md",
+    "disting.fit",
+    "disting.fit.networks.fit_networks",
+    "disting.report.write.write_report",
+    "disting.verdict.decisions.Decisions",
+    "disting.verdict.next_experiments.next_experiments",
+}
+FEWER, FEWEST = 5, 5  # examples of a law by default: a fifth of all, but not less than five
 # without windows, where it is there: the same engine at four fifths of the work
 PROGRAMS = "chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"
 CHROMIUM = next(filter(None, map(shutil.which, PROGRAMS)), None)
@@ -47,18 +63,62 @@ def pytest_configure(config):
     alone is what the default tests leave out.
     """
     chosen = config.option.markexpr
-    if "full" in chosen:
-        left_out = [f" and not {kind}" for kind in DEARER if kind not in chosen]
-        config.option.markexpr = f"({chosen}){''.join(left_out)}"
+    unnamed = [f"not {kind}" for kind in DEARER if kind not in chosen]
+    if "full" in chosen and unnamed:
+        config.option.markexpr = " and ".join([f"({chosen})", *unnamed])
+
+
+def left_out(config):
+    """Kinds of which -m chooses no test: `not` with each is a term of it, outside parentheses."""
+    outside = re.sub(r"\(.*\)", "()", config.option.markexpr)
+    terms = [] if " or " in outside else outside.split(" and ")
+    return {term.removeprefix("not ") for term in terms if term.startswith("not ")}
+
+
+def left_out_unseen(config):
+    """The same for whole folders; a file or a test that is named is read, whatever its marks."""
+    named = any("::" in name or name.endswith(".py") for name in config.args)
+    return set() if named else left_out(config)
+
+
+def pytest_ignore_collect(collection_path, config):
+    """What is left out as a whole, a room or a file, is not read: imports and cases cost time."""
+    out = left_out_unseen(config)
+    if collection_path.name in ("attack", "bench"):
+        return True if collection_path.name in out else None
+    if collection_path.suffix != ".py" or not out:
+        return None
+    of_file = MARKS_OF_FILE.findall(collection_path.read_text(encoding="utf-8"))
+    return True if out & set(re.findall(r"pytest\.mark\.(\w+)", "".join(of_file))) else None
+
+
+def pytest_pycollect_makeitem(collector, name, obj):
+    """Nor are the cases of a test made that is left out with all of them."""
+    marks = {mark.name for mark in getattr(obj, "pytestmark", ())} if name[:4] == "test" else set()
+    return [] if marks & left_out_unseen(collector.config) else None
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collect_file(file_path):
+    """Modules without an example are not searched for one: it looks at each of their names."""
+    collectors = yield
+    if file_path.suffix != ".py" or ">>> " in file_path.read_text(encoding="utf-8"):
+        return collectors
+    return [c for c in collectors if "Doctest" not in type(c).__name__]
 
 
 @pytest.hookimpl(tryfirst=True)  # before -m chooses
-def pytest_collection_modifyitems(items):
-    """`thin(n)`: n cases of a test, spread over all of them, are default tests, the others `full`.
-    Cases with a mark of their own do not count.
+def pytest_collection_modifyitems(items, config):
+    """Split tests between the default ones and the `full` ones.
+
+    `thin(n)`: n cases of a test, spread over all of them, are default tests, the others `full`.
+    Cases with a mark of their own do not count. A law is both: a default test with few examples,
+    a `full` one with all of them.
     """
     cases = defaultdict(list)
     for item in items:
+        if item.name in DEAR_DOCUMENTS:
+            item.add_marker("full")
         marks = {mark.name for mark in item.iter_markers()}
         if "thin" in marks and not marks & {"full", *DEARER}:
             cases[item.path, item.cls, item.originalname].append(item)
@@ -68,12 +128,14 @@ def pytest_collection_modifyitems(items):
         for k, item in enumerate(of_one):
             if k not in kept:
                 item.add_marker("full")
-
-
-def pytest_ignore_collect(collection_path, config):
-    """Rooms of which nothing runs unless it is asked for are not read before."""
-    room = collection_path.name
-    return True if room in ("attack", "bench") and f"not {room}" in config.option.markexpr else None
+    few = "full" in left_out(config)
+    laws = [item for item in items if is_hypothesis_test(getattr(item, "obj", None))]
+    for item in [] if few else laws:
+        item.add_marker("full")
+    for law in {item.obj for item in laws} if few else ():
+        all_of_them = law._hypothesis_internal_use_settings
+        count = min(all_of_them.max_examples, max(FEWEST, all_of_them.max_examples // FEWER))
+        law._hypothesis_internal_use_settings = settings(all_of_them, max_examples=count)
 
 
 SECTIONS = {"oracle": "compared with independent programs", "attack": "attacked"}

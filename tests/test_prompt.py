@@ -121,6 +121,7 @@ def test_every_object_is_one_short_line(shown):
         assert " object at 0x" not in text and "<function" not in text, text
 
 
+@pytest.mark.full
 def test_every_public_class_is_among_them(shown):
     """A new one needs a line of its own; enumerations, errors and warnings have theirs."""
     public = {
@@ -132,6 +133,7 @@ def test_every_public_class_is_among_them(shown):
     assert public - {type(one) for one in shown} == set()
 
 
+@pytest.mark.full
 def test_lines_say_what_is_there(shown):
     lines = {type(one).__name__: repr(one) for one in reversed(shown)}
     assert lines["Catalog"] == "<Catalog: chains-1-undamped, 1 model, 0 pairs>"

@@ -117,6 +117,7 @@ HELPFUL = (
 )  # fmt: skip
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("room", HELPFUL)
 def test_help_is_short_and_has_every_public_name(room):
     module = import_module(f"disting{room}")
@@ -126,6 +127,7 @@ def test_help_is_short_and_has_every_public_name(room):
     assert len(text.splitlines()) < LONGEST_HELP and "CLASSES" not in text
 
 
+@pytest.mark.full
 def test_help_of_a_fresh_process_is_as_short():
     """The public names of `disting` are offered when the first of them is used, here by pydoc."""
     code = "import pydoc, disting; print(len(pydoc.render_doc(disting).splitlines()))"
@@ -146,6 +148,7 @@ def test_importing_the_package_imports_none_of_its_modules():
     assert "flint" not in loaded and "numpy" not in loaded
 
 
+@pytest.mark.full
 def test_the_names_leave_heavy_libraries_alone():
     loaded = fresh("import sys; from disting import *; print(*sys.modules)")
     assert "disting.verdict" in loaded
@@ -162,6 +165,7 @@ def test_modules_are_found_below_the_package_and_other_names_are_not():
             getattr(disting, name)
 
 
+@pytest.mark.full
 def test_the_list_of_commands_is_told_without_the_libraries_of_any():
     """As are the version and a mistyped command."""
     code = "import sys; from disting.cli import main\ntry: main(['--version'])\nfinally: print(*sys.modules)"
@@ -271,6 +275,7 @@ def methods(kind):
             yield f"{kind.__name__}.{name}", function
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("room", HELPFUL)
 def test_no_public_function_returns_just_anything(room):
     found = callables(room)
@@ -355,6 +360,7 @@ def offering():
     }
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("package", sorted(offering()))
 def test_names_of_a_package_are_those_that_type_checkers_see(package):
     tree = ast.parse(offering()[package])

@@ -23,6 +23,7 @@ FUNCTIONS = [
 ]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("name", FUNCTIONS)
 @pytest.mark.parametrize("wrong", WRONG, ids=lambda x: type(x).__name__)
 def test_of_every_argument_that_is_needed(name, wrong):
@@ -36,6 +37,7 @@ def test_of_every_argument_that_is_needed(name, wrong):
     assert "\n" not in str(refusal.value) and "attribute" not in str(refusal.value)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("function", [compare, findings, file_of_verdict])
 @pytest.mark.parametrize("name", ["query", "engine", "experiments", "quantity", "domain"])
 def test_of_what_may_be_left_out(function, name):

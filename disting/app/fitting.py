@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from disting.app.interface import Json, Progress
-from disting.app.project import ABOUT, fit_numbers, inside, measured, summary
+from disting.app.project import ABOUT, fit_file, fit_numbers, inside, measured, summary
 from disting.app.reading import command_words, response_of
 from disting.app.workers import Setting
 from disting.errors import InputError, short
@@ -31,6 +31,7 @@ from disting.network.families import family_of
 from disting.network.network import Network
 from disting.network.notation import network_of
 from disting.network.notation.member import FAMILY
+from disting.planning.fit_file import named_by
 from disting.report.fit import export, write_fit_report
 from disting.report.fit.network_page import write_network_report
 from disting.report.fit.sentences import first_lines
@@ -72,18 +73,24 @@ def _fit_chains(request: Json, folder: Path, work: Work) -> Json:
     first = request["measurements"][0]
     train = response_of(first["file"], first["reading"])
     test = response_of(request["test"], first["reading"]) if "test" in request else None
+    left = named_by(fit_file(request["left"])) if "left" in request else None
+    chains = left.chains if left else _chains(request)
     selection = select(
         train,
-        _chains(request, train.quantity),
+        [replace(chain, quantity=train.quantity) for chain in chains],
         test=test,
         further=[*_further(request)],
+        home=replace(left.model, quantity=train.quantity) if left else None,
         sign=SIGNS[first["reading"].get("sign", "+")],
+        fix=request.get("fix"),
+        bound=_ranges(request),
+        controller=request.get("controller"),
         engine=work.engine,
         executor=work.executor,
         progress=work.progress,
     )
-    command = shlex.join(["disting", "fit", *_data_words(request)])
-    selection = replace(selection, command=command)
+    again = _command(request, _option_words(request))
+    selection = replace(selection, command=again)
     write_fit_report(selection, folder, train, test)
     models = export(selection, train)
     if models:
@@ -94,15 +101,25 @@ def _fit_chains(request: Json, folder: Path, work: Work) -> Json:
         "answer": list(first_lines(selection)),
         "explains": selection.explanation.explains and not selection.question,
         "quantities": [r.quantity.value for r in selection.quantities if selection.question],
-        "command": shlex.join(["disting", "fit", *_data_words(request), *_chain_words(request)]),
+        "command": _command(request, [*_option_words(request), *_chain_words(request)]),
     }
 
 
-def _chains(request: Json, quantity: Quantity) -> tuple[Chain, ...]:
-    """Candidates of the request."""
+def _ranges(request: Json) -> dict[str, tuple[float, float]]:
+    """Ranges of parameters; raises InputError for one that ends before it begins."""
+    for name, (low, high) in request.get("bound", {}).items():
+        if not low < high:
+            raise InputError(
+                f"the range of {name} begins at {low:g} and ends at {high:g}; swap them"
+            )
+    return {name: (low, high) for name, (low, high) in request.get("bound", {}).items()}
+
+
+def _chains(request: Json) -> tuple[Chain, ...]:
+    """Candidates of the request, of any quantity."""
     first = request["measurements"][0]
     sensor, force = first.get("sensor", "1"), first.get("force", "1")
-    chains = chosen_ports(request["masses"], force, sensor, 0, quantity)
+    chains = chosen_ports(request["masses"], force, sensor, 0, Quantity.ACCELERATION)
     if request.get("base"):
         if len(request["measurements"]) > 1 or (sensor, force) != ("1", "1"):
             raise InputError(
@@ -148,6 +165,11 @@ def _fit_networks(request: Json, folder: Path, work: Work) -> Json:
     """Fit circuits or machines in any notation to the first measurement."""
     if len(request["measurements"]) > 1:
         raise InputError("models of your own are fitted to one measurement: remove the others")
+    if "test" in request:
+        raise InputError(
+            "models of your own are fitted without test data: remove the measurement that tests the"
+            " fit"
+        )
     first = request["measurements"][0]
     networks = [network for text in request["models"] for network in _networks(text)]
     is_circuit = any(network.sort is Sort.CIRCUIT for network in networks)
@@ -157,12 +179,11 @@ def _fit_networks(request: Json, folder: Path, work: Work) -> Json:
     response = as_impedance(response) if is_circuit else response
     selection = fit_networks(response, networks, engine=work.engine, progress=work.progress)
     write_network_report(selection, folder)
-    words = ["disting", "fit", *_data_words(request), "--models", *request["models"]]
     return {
         "answer": [*selection.warnings, selection.sentence],
         "explains": bool(selection.left),
         "quantities": [],
-        "command": shlex.join(words),
+        "command": _command(request, ["--models", *request["models"]]),
     }
 
 
@@ -171,23 +192,55 @@ def _networks(text: str) -> Sequence[Network]:
     return tuple(family_of(text).networks) if FAMILY.fullmatch(text) else (network_of(text),)
 
 
-def _data_words(request: Json) -> list[str]:
-    """Words of the command line for the data."""
+def _command(request: Json, words: Sequence[str]) -> str:
+    """The command with the data of the request and these words; "" where there is none, since the
+    command reads all files alike.
+    """
     first, *others = request["measurements"]
-    words = command_words(measured(first["file"]), first["reading"])
+    if not all(_is_read_alike(first["reading"], other["reading"]) for other in others):
+        return ""
+    own = command_words(measured(first["file"]), first["reading"])
     if "test" in request:
-        words += ["--test", str(measured(request["test"]))]
-    for name, option in (("sensor", "--sensor"), ("force", "--actuator")):
-        words += [option, first[name]] if first.get(name) else []
+        own += ["--test", str(measured(request["test"]))]
     for other in others:
         entries = [f"{name}={other[name]}" for name in ("sensor", "force") if other.get(name)]
         entries += [other["change"]] if other.get("change") else []
-        words += ["--experiment", f"{measured(other['file'])}:{','.join(entries)}"]
-    return words
+        entries += [f"column={other['reading']['column']}"] if "column" in other["reading"] else []
+        own += ["--experiment", f"{measured(other['file'])}:{','.join(entries)}"]
+    return shlex.join(["disting", "fit", *own, *words])
+
+
+def _is_read_alike(first: Json, other: Json) -> bool:
+    """Return True if the options of the command for the first file read the other one too: a column
+    may be named for each.
+
+    >>> _is_read_alike({"hold": 1e-4}, {"hold": 1e-4, "column": 2})
+    True
+    >>> _is_read_alike({"column": 2}, {})
+    False
+    """
+    if "," in str(other.get("column", "")) or ("column" in first and "column" not in other):
+        return False
+    return all(first.get(n) == other.get(n) for n in {*first, *other} - {"column"})
+
+
+def _option_words(request: Json) -> list[str]:
+    """Words of the command line that belong to the machine, whatever the candidates are."""
+    first = request["measurements"][0]
+    words = ["--sensor", first["sensor"]] if first.get("sensor") else []
+    for name, value in request.get("fix", {}).items():
+        words += ["--fix", f"{name}={value!r}"]
+    for name, (low, high) in request.get("bound", {}).items():
+        words += ["--bound", f"{name}={low!r}..{high!r}"]
+    return words + (["--controller", request["controller"]] if "controller" in request else [])
 
 
 def _chain_words(request: Json) -> list[str]:
     """Words of the command line for the candidates."""
+    if "left" in request:
+        return ["--left", fit_file(request["left"]).as_posix()]
+    first = request["measurements"][0]
     words = ["--masses", ",".join(map(str, request["masses"]))]
+    words += ["--actuator", first["force"]] if first.get("force") else []
     words += [] if request.get("damped", True) else ["--undamped"]
     return words + (["--base"] if request.get("base") else [])

@@ -145,6 +145,21 @@ def summary(number: int) -> Json:
     return read_object(folder / ABOUT) | {"fit": number, "files": files}
 
 
+def fit_file(number: int) -> Path:
+    """Return the JSON file of a finished fit, relative to the project; raises InputError."""
+    path = inside(inside(Path(), "fits", str(number)), "fit.json")
+    if not path.is_file():
+        raise InputError(f"the project has no fit {number}")
+    return path
+
+
+def add_to_fit(number: int, name: str, content: Json) -> Json:
+    """Keep a further answer beside that of a finished fit; return the fit as `summary` does."""
+    path = fit_file(number).with_name(ABOUT)
+    write_whole(path, [json_text(read_object(path) | {name: content}, indent=1), "\n"])
+    return summary(number)
+
+
 def read_object(path: Path) -> Json:
     """A JSON object of the project, empty where there is none."""
     try:

@@ -60,8 +60,8 @@ results
   --json FILE             the result for programs; 'disting next FILE' reads it
   --controller P=2,I=30   stability margins of this controller
 
---help-all shows all options. Which files are read, what is meant by a unit or a
-sign, how to read the answer: 'disting report 3' writes the guide.
+--help-all shows all options. 'disting report 3' writes the guide: file formats,
+units and signs, how to read the answer.
 """
 
 

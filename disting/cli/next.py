@@ -17,17 +17,17 @@ from disting.cli.arguments import (
     is_damped,
 )
 from disting.cli.model_names import is_network, structures
-from disting.cli.output import emit, written_file
+from disting.cli.output import complain, emit, written_file
 from disting.cli.workers import engine_for
 from disting.errors import InputError, enumeration, printable
-from disting.experiments.experiment import places_of
-from disting.experiments.menu import Costs, Item
+from disting.experiments.menu import Costs
 from disting.files import json_text
-from disting.model.chain import LEGEND, Chain, Sort, text_drawing
+from disting.model.chain import Chain
 from disting.model.kinds import COSTS, PRICES
 from disting.model.names import name_of, read, read_together
 from disting.network.network import Network
 from disting.verdict.engine import Engine
+from disting.verdict.menu_text import menu_text
 from disting.verdict.next_experiments import (
     Distinguishable,
     Menu,
@@ -38,9 +38,6 @@ from disting.verdict.next_experiments import (
 from disting.verdict.next_words import (
     CSV_COLUMNS,
     AnyMenu,
-    anywhere,
-    conclusion,
-    in_words,
     rows,
     to_dict,
 )
@@ -48,12 +45,6 @@ from disting.verdict.result import View
 
 Named = tuple[str, Chain]
 Table = Iterable[Sequence[str]]
-DOMAIN = (
-    "decided over complex parameters: structures that differ there differ over positive ones"
-    " too; all ways of matching the {place} of two structures are tested"
-)
-
-BRIEF = "only menus with a sufficient experiment are shown; --json has them all"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -157,62 +148,25 @@ def _of_all(all_advice: Iterable[AnyMenu]) -> Table:
 
 def _from_fit(options: argparse.Namespace, costs: Costs) -> int:
     """Of the structures that a fit left; only here are the libraries of fits loaded."""
-    from disting.cli.next_fit import chain_advice, in_text, network_advice, plain, table
+    from disting.report.fit.next_of_fit import advise_fit
 
+    source = _source(options)
     with engine_for(options) as (engine, pool, progress):
-        networks = network_advice(options, costs, engine, pool, progress)
-        if networks:
-            text = "\n\n".join([*networks.sentences, *map(menu_text, networks.groups)])
-            written = json_text(networks.to_dict(), indent=1)
-            return _write_result(options, _of_all(networks.groups), written, text)
-        lead = chain_advice(options, costs, engine, pool, progress)
-    menus = [line for group in lead.groups for line in ("", *_describe_menu(group, brief=True))]
-    domain = ["", DOMAIN.format(place="mass"), BRIEF] if lead.groups else []
-    written = json_text(plain(lead), indent=1)
-    return _write_result(options, table(lead), written, in_text(lead, [*domain, *menus]))
+        advice = advise_fit(source, costs, engine, pool, progress)
+    for warning in advice.warnings:
+        complain(warning)
+    written = json_text(advice.to_dict(), indent=1)
+    return _write_result(options, advice.table(), written, advice.text)
 
 
-def menu_text(advice: AnyMenu) -> str:
-    """The menu for each structure, cheapest first, with what its words mean."""
-    legend = [LEGEND] if isinstance(advice.structures[0], Chain) else []
-    return "\n".join(_describe_menu(advice, ["", *legend, DOMAIN.format(place=advice.place)]))
-
-
-def _describe_menu(advice: AnyMenu, words: Sequence[str] = (), *, brief: bool = False) -> list[str]:
-    """The menu of each structure; `brief`: only where something on it is surely enough."""
-    width = max(map(len, advice.names))
-    structures: tuple[Chain | Network, ...] = advice.structures
-    drawings = [
-        f"  {name:{width}}  {_draw_structure(structure)}".rstrip()
-        for name, structure in zip(advice.names, structures, strict=True)
-    ]
-    head = f"{len(advice.names)} structures that the present measurement cannot distinguish:"
-    enough = anywhere(advice)
-    phrases = [f"what separates all of them: {enough}"] if enough else []
-    lines = [head, *drawings, *words, *phrases]
-    for structure, name in enumerate(advice.names):
-        lines += ["", f"if it is {name}:"]
-        for kind in advice.kinds if advice.least(structure) or not brief else ():
-            cost = f"{kind.name:8} cost {advice.costs.cost(kind):g}"
-            for at in advice.places(structure):
-                answer = in_words(advice, structure, Item(kind, at))
-                lines.append(f"  {cost}  {advice.place} {at}: {answer}")
-        lines.append(f"  {conclusion(advice, structure)}")
-    return lines
-
-
-def _draw_structure(structure: Chain | Network) -> str:
-    """A chain as a drawing; of a circuit what meets in each node."""
-    if isinstance(structure, Chain):
-        return text_drawing(structure)
-    if structure.sort is not Sort.CIRCUIT:
-        return ""
-    meeting = {
-        i: ", ".join(e.value for e in structure.elements if i in e.nodes)
-        for i in (*places_of(structure), structure.reference)
-    }
-    nodes = "; ".join(f"{i}: {values}" for i, values in meeting.items())
-    return f"(what meets in its nodes, the reference last: {nodes})"
+def _source(options: argparse.Namespace) -> str:
+    """The file; raises InputError for arguments in addition to it."""
+    source = next(name for name in options.models if name.lower().endswith(".json"))
+    if len(options.models) > 1 or options.damped is not None:
+        raise InputError(
+            f"{source} names its structures itself: remove other names and --damped or --undamped"
+        )
+    return str(source)
 
 
 def _table(lines: Iterable[Sequence[str]]) -> str:

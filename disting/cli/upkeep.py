@@ -3,7 +3,7 @@
 import argparse
 
 from disting.cli.output import emit
-from disting.files import Format, __version__, json_text, schema
+from disting.files import RECORDS, Format, __version__, json_text, record_schema, schema
 from disting.store import Store
 
 NAMES = {known.short: known for known in Format}
@@ -12,16 +12,19 @@ NAMES = {known.short: known for known in Format}
 def add_schema_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `schema`."""
     text = "a format, whose JSON Schema is printed (default: all formats are listed)"
-    parser.add_argument("name", nargs="?", choices=tuple(NAMES), metavar="NAME", help=text)
+    parser.add_argument("name", nargs="?", choices=(*NAMES, RECORDS), metavar="NAME", help=text)
 
 
 def print_schema(options: argparse.Namespace) -> int:
     """Print a schema, or what there is."""
     if options.name:
-        emit("-", json_text(schema(NAMES[options.name]), indent=1) + "\n")
+        of_lines = options.name == RECORDS
+        found = record_schema() if of_lines else schema(NAMES[options.name])
+        emit("-", json_text(found, indent=1) + "\n")
         return 0
     for name, file_format in NAMES.items():
         print(f"{name}: {file_format.description}")
+    print(f"{RECORDS}: {record_schema()['description']}")
     return 0
 
 

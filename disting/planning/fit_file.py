@@ -278,6 +278,11 @@ class NamedNetworks:
     determined: frozenset[Network] = frozenset()
 
 
+def record_of(path: Path) -> FitRecord | NamedNetworks:
+    """Content of a file of a fit, of chains or of networks; raises InputError."""
+    return networks_named_by(path) if is_of_networks(path) else named_by(path)
+
+
 def is_of_networks(path: Path) -> bool:
     """Return True if a JSON file is that of a fit of networks; raises InputError."""
     plain = read_json(path, FIT_FILE)

@@ -54,6 +54,7 @@ def test_sympy(left, right, expected):
     assert plain_by_sympy.same(left, right, Random(1)) is expected
 
 
+@pytest.mark.full
 @needs_singular
 @pytest.mark.parametrize(
     ("u", "v", "expected"), [("3", "2", (2, 2, 2)), ("-3", "2", (2, 2, 0)), ("1", "2", (2, 0, 0))]

@@ -93,6 +93,7 @@ primes = st.sampled_from([2, 3, 5, 7, P])
 # -------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.full
 @many
 @given(matrices, primes)
 def test_every_subset_has_its_rank(rows, p):
@@ -102,6 +103,7 @@ def test_every_subset_has_its_rank(rows, p):
         assert rank_in(m, s) == rank(rows, s, p)
 
 
+@pytest.mark.full
 @many
 @given(matrices, matrices, primes)
 def test_forms_are_equal_exactly_if_the_bases_are(left, right, p):
@@ -110,6 +112,7 @@ def test_forms_are_equal_exactly_if_the_bases_are(left, right, p):
     assert (form(left, p) == form(right, p)) == (bases(left, p) == bases(right, p))
 
 
+@pytest.mark.full
 @many
 @given(matrices, st.data(), primes)
 def test_one_changed_row_changes_the_form_exactly_if_it_changes_the_bases(rows, data, p):
@@ -193,6 +196,7 @@ def test_dependences_fix_the_matroid(left, right, p):
     assert mutual == (one == other)
 
 
+@pytest.mark.full
 @many
 @given(matrices, st.data(), primes)
 def test_separating_rows_have_different_ranks(rows, data, p):
@@ -317,6 +321,7 @@ def closure_mask(rows, chosen, p):
     return sum(1 << i for i in range(len(rows)) if rank(rows, {*chosen, i}, p) == base)
 
 
+@pytest.mark.full
 @many
 @given(matrices, primes)
 def test_dependent_flats_are_the_spans_of_all_short_circuits(rows, p):

@@ -70,7 +70,7 @@ def test_lowest_terms_and_their_derivatives(num, den, factor):
         assert all(d.degree() < len(values) for d in slopes)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("num", "den", "factor"), CASES[:6])
 def test_the_series_at_infinity_and_its_derivatives(num, den, factor):
     t = symbols("t")

@@ -81,6 +81,7 @@ def combined(a, b, sign):
     return {"+": a.__add__, "-": a.__sub__, "*": a.__mul__, "/": a.__truediv__}[sign](b)
 
 
+@pytest.mark.full
 @settings(max_examples=60, deadline=None)
 @given(trees)
 def test_what_is_written_is_what_is_meant(function: RationalFunction):

@@ -96,8 +96,8 @@ def serving(
         env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])},
         start_new_session=True, preexec_fn=before,
     )  # fmt: skip
+    assert process.stdout is not None
     try:
-        assert process.stdout is not None
         lines = [process.stdout.readline() for _ in range(3)]
         found = re.search(r"open (http\S+)", "".join(lines))
         assert found, lines
@@ -105,6 +105,7 @@ def serving(
     finally:
         process.send_signal(signal.SIGINT)
         process.wait(60)
+        process.stdout.close()
 
 
 def bench_csv(lines: int = 80) -> bytes:

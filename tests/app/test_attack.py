@@ -58,7 +58,17 @@ REQUESTS = {
     "fits": {},
     "open": {"page": "data"},
     "save": {"page": "data", "content": {"a": 1}},
-    "fit": {"measurements": [{"file": "none.csv", "reading": {}}], "masses": [1], "models": ["R1"]},
+    "fit": {
+        "measurements": [{"file": "none.csv", "reading": {}}],
+        "masses": [1],
+        "models": ["R1"],
+        "fix": {"m1": 0.1},
+        "bound": {"k12": [0, 5]},
+        "controller": "P=2",
+    },
+    "next": {"fit": 1},
+    "plan": {"fit": 1},
+    "two_fits": {"fits": [1, 2]},
 }
 BODIES = [
     b"", b"{", b"}", b"[]", b"null", b"1", b'"x"', b"{} {}", b"\xff\xfe", b'{"page": NaN}', b'{"page": Infinity}', b'{"page": "data", "page": "data"}',

@@ -2,6 +2,7 @@
 goes wrong; on a desk and on a telephone, light and dark.
 """
 
+import json
 import re
 from collections.abc import Iterator
 
@@ -12,6 +13,7 @@ from tests.report.barriers import barriers
 from tests.report.conftest import heard
 
 pytestmark = pytest.mark.full
+VELOCITY = {"quantity": "velocity"}
 SLOW = 240_000  # milliseconds that a fit may take on a machine with other work
 REFUSAL = re.compile(r"Failed to load resource: the server responded with a status of 422")
 DROP = """([name, text]) => {
@@ -121,6 +123,83 @@ def test_an_engineer_by_mouse(own, visit):
     assert tab.input_value("#field-quantity") == "velocity"
 
 
+def test_a_second_measurement_tests_the_fit_and_what_comes_after_it_is_on_the_page(own, visit):
+    tab = visit(own)
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    tab.select_option("#field-quantity", "velocity")
+    tab.wait_for_selector(".field.assumed", state="detached")
+    drop(tab, "again.csv", bench_csv(81))
+    is_seen(tab, "What was read: again.csv")
+    tab.select_option("#role", "test")
+    is_seen(tab, "It is read as the first measurement")
+    assert tab.locator(".field.assumed").count() == 0
+    is_seen(tab, "2. again.csv (test)")
+    for n in (1, 3, 4):
+        tab.click(f".masses input[value='{n}']")
+    tab.click("text=Known values, ranges, controller")
+    tab.fill("#fix", "Td=late")
+    tab.click("#fit button.main")
+    is_seen(tab, "Known values: write them like m1=0.02, Td=0.0003, not Td=late.")
+    tab.fill("#fix", "Td=0.0003")
+    for number in (1, 2):
+        tab.click("#fit button.main")
+        is_seen(tab, f"Answer of fit {number}: bench.csv")
+        tab.fill("#fix", "")
+    commands = [found["command"] for found in own.call("fits", {})[1]["fits"]]
+    assert all("--test data/again.csv" in command for command in commands)
+    assert ["--fix Td=0.0003" in command for command in commands] == [False, True]
+    tab.click("#answer button:has-text('What to measure next')")
+    is_seen(tab, "no further measurement is needed to distinguish structures")
+    tab.click("#answer button:has-text('Plan: how much more')")
+    tab.wait_for_selector("#answer a[href$='plan.html'] >> text=Open the page of the plan")
+    tab.click("text=Compare the fits")
+    tab.wait_for_selector("#two-fits table")
+    assert "Both select the same structure, 2:1+b1+delay." in tab.locator("#two-fits").inner_text()
+    tab.evaluate("document.querySelectorAll('details').forEach((part) => { part.open = true; })")
+    assert barriers(tab) == []
+    tab.set_viewport_size({"width": 390, "height": 844})
+    assert overflow(tab) <= 0
+    tab.reload()
+    tab.wait_for_selector("#answer .onward h3")
+    assert tab.locator("#answer .onward h3").all_inner_texts() == [
+        "What to measure next",
+        "How much more of the same to measure",
+    ]
+
+
+def test_the_advised_measurement_is_added_with_its_place(own, visit):
+    folder = own.folder / "fits" / "1"
+    folder.mkdir(parents=True)
+    words = {
+        "first": "measure next: sensor at mass 2",
+        "text": "",
+        "warnings": [],
+        "command": "disting next x",
+        "setup": "sensor=2",
+    }
+    (folder / "about.json").write_text(json.dumps({"answer": ["Data: fine"], "next": words}))
+    (folder / "fit.html").write_text("<title>fit</title>")
+    assert own.upload("bench.csv", bench_csv())[0] == 200
+    own.call(
+        "save",
+        {"page": "data", "content": {"measurements": [{"file": "bench.csv", "reading": VELOCITY}]}},
+    )
+    tab = visit(own)
+    with tab.expect_file_chooser() as chooser:
+        tab.click("text=Add this measurement (sensor=2)")
+    chooser.value.set_files({"name": "second.csv", "mimeType": "text/csv", "buffer": bench_csv(81)})
+    is_seen(tab, "What was read: second.csv")
+    assert tab.input_value("#place-sensor") == "2"
+    is_seen(tab, "only the structures that fit 1 left")
+    assert tab.locator(".masses").is_hidden()
+    saved = own.call("open", {"page": "data"})[1]["content"]
+    assert saved["measurements"][1] == {"file": "second.csv", "reading": VELOCITY, "sensor": "2"}
+    assert saved["left"] == 1
+    tab.uncheck("#left")
+    assert tab.locator(".masses").is_visible()
+
+
 def test_an_engineer_by_keyboard(own, visit):
     tab = visit(own)
     with tab.expect_file_chooser() as chooser:  # before the first key: the browser needs a moment
@@ -156,6 +235,9 @@ def test_a_chemist_pastes_a_spectrum(own, visit):
     tab.fill("#pasted", f"freq/Hz,Re(Z)/Ohm,-Im(Z)/Ohm\n{rows}\n")
     tab.click("text=Read the table")
     tab.wait_for_selector("#diagram.nyquist circle")
+    tab.get_by_role("button", name="Zoom in").click()
+    tab.get_by_role("button", name="Move up").click()
+    assert shown(tab).startswith("Re Z ")
     assert tab.is_checked("input[name=sort][value=models]")
     tab.click("#fit button.main")
     is_seen(tab, "Name at least one model.")
@@ -164,6 +246,77 @@ def test_a_chemist_pastes_a_spectrum(own, visit):
     tab.wait_for_selector("#answer-title")
     assert "R0-p(R1,C1)" in tab.locator("#answer li").first.inner_text()
     assert barriers(tab) == []
+
+
+def shown(tab) -> str:
+    """The part of the diagram that is shown; empty where all of it is."""
+    return tab.locator("#diagram").get_attribute("aria-label").partition("; shown: ")[2]
+
+
+def ends(tab) -> list[float]:
+    """Limits of the part that is shown [Hz]."""
+    return [float(part) for part in shown(tab).removesuffix(" Hz").split(" to ")]
+
+
+ZOOMED = "document.getElementById('diagram').getAttribute('aria-label').includes('shown')"
+
+
+WHEEL = """(() => {
+  const diagram = document.getElementById("diagram"), { left, top, width, height } = diagram.getBoundingClientRect();
+  const event = new WheelEvent("wheel", { deltaY: -100, clientX: left + width / 2, clientY: top + height / 2, bubbles: true, cancelable: true });
+  diagram.dispatchEvent(event);
+  return event.defaultPrevented;
+})()"""
+
+
+def test_the_diagram_is_zoomed_by_mouse(app, visit):
+    tab = visit(app)
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    assert not tab.evaluate(WHEEL) and shown(tab) == ""  # a page that scrolls goes on
+    tab.locator("#diagram").scroll_into_view_if_needed()
+    box = tab.locator("#diagram").bounding_box()
+    y = box["y"] + box["height"] / 3
+    x = [box["x"] + share * box["width"] for share in (0.4, 0.5, 0.6)]
+    tab.mouse.move(x[0], y)
+    tab.mouse.down()
+    tab.mouse.move(x[1], y)
+    tab.mouse.move(x[2], y)
+    assert tab.locator("#diagram .chosen").count() == 1
+    tab.mouse.up()
+    until(tab, ZOOMED)
+    low, high = ends(tab)
+    assert 20 < low < high < 75
+    assert tab.locator("#diagram .chosen").count() == 0
+    assert tab.evaluate(WHEEL)  # it has the focus since the drag
+    assert low < ends(tab)[0] < ends(tab)[1] < high
+    tab.mouse.dblclick(x[1], y)
+    until(tab, f"!{ZOOMED}")
+    tab.mouse.click(x[1], y)  # a click without a drag chooses no range
+    assert shown(tab) == ""
+    assert barriers(tab) == []
+
+
+def test_the_diagram_is_zoomed_by_keys_and_buttons(app, visit):
+    tab = visit(app, 390)
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    tab.focus(".zoom")
+    for key in ("+", "+", "ArrowRight"):
+        tab.keyboard.press(key)
+    first = shown(tab)
+    assert first.endswith(" Hz")
+    tab.keyboard.press("ArrowLeft")
+    assert shown(tab) not in ("", first)
+    tab.keyboard.press("Escape")
+    assert shown(tab) == ""
+    tab.get_by_role("button", name="Zoom in").click()
+    assert shown(tab) != ""
+    assert shown(tab) in tab.locator("#status").inner_text()
+    tab.get_by_role("button", name="Zoom out").click()
+    tab.get_by_role("button", name="Zoom out").click()
+    assert shown(tab) == ""
+    assert overflow(tab) <= 0
 
 
 def test_a_fit_is_stopped_and_a_closed_page_finds_its_fit_again(own, visit):

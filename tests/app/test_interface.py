@@ -6,6 +6,7 @@ from jsonschema import Draft202012Validator
 from disting.app.interface import CALLS, SCHEMAS
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("name", CALLS)
 def test_its_schema_is_one_and_closes_the_request(name):
     schema = CALLS[name].schema

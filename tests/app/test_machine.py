@@ -50,6 +50,7 @@ def test_machines_are_at_least_forty() -> None:
     assert len({*MACHINES}) >= 40
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("text", MACHINES)
 def test_parts_of_a_machine_describe_it(text: str) -> None:
     network = network_of(text)
@@ -100,6 +101,7 @@ def test_the_command_to_copy_says_the_same(text: str, capsys: pytest.CaptureFixt
     assert answer["sentence"] in run_command(capsys, *words)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("text", [*MACHINES[::5], *OTHERS])
 def test_a_drawing_has_the_words_of_its_model(text: str) -> None:
     answer = draw_machine({"text": text})

@@ -349,8 +349,15 @@ def test_what_is_written_before_the_saved_page_comes_stays(visit, page, field):
         assert tab.input_value(field) == "3:1"
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1280, 390])
+@pytest.mark.parametrize(
+    ("width", "scheme"),
+    [
+        (1280, "light"),
+        (390, "dark"),
+        pytest.param(1280, "dark", marks=pytest.mark.slow),  # colours do not depend on the width
+        pytest.param(390, "light", marks=pytest.mark.slow),
+    ],
+)
 def test_pages_have_no_barriers_and_fit_their_window(visit, width, scheme):
     with visit("machine", width, scheme) as tab:
         write(tab, "1=2; F1; S1")

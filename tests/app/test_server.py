@@ -126,11 +126,56 @@ def test_a_fit_reports_every_candidate_and_leaves_a_readable_folder(app):
 
 @pytest.mark.slow
 def test_the_command_that_the_page_shows_gives_the_same_fit(app):
-    answer = app.run("fit", SMALL | {"masses": [1]})["answer"]
+    app.upload("again.csv", bench_csv(81))
+    more = {"masses": [1], "test": "again.csv", "fix": {"Td": 3e-4}, "bound": {"m1": [0.001, 1.0]}}
+    answer = app.run("fit", SMALL | more | {"controller": "P=0.01"})["answer"]
     words = answer["command"].split()
+    assert {"--test", "--fix", "--bound", "--controller"} <= {*words}
     assert words[:2] == ["disting", "fit"]
     done = subprocess.run([sys.executable, "-m", "disting", *words[1:], "--json", "-"], cwd=app.folder, capture_output=True, text=True, check=False)  # fmt: skip
     assert json.loads(done.stdout)["answer"] == answer["answer"]
+
+
+def test_after_a_fit_its_advice_its_plan_and_another_fit_beside_it(app):
+    first, second = (app.run("fit", SMALL | {"masses": m})["answer"]["fit"] for m in ([1, 2], [1]))
+    for name in ("next", "plan"):
+        end = app.run(name, {"fit": first})
+        assert end["state"] == "done", end
+        validate(end["answer"], CALLS[name].schema["properties"]["answer"])
+        words = end["answer"][name]["command"].split()
+        done = subprocess.run([sys.executable, "-m", "disting", *words[1:]], cwd=app.folder, capture_output=True, text=True, check=False)  # fmt: skip
+        assert done.stdout == end["answer"][name]["text"] + "\n"
+    kept = next(x for x in app.call("fits", {})[1]["fits"] if x["fit"] == first)
+    assert "next" in kept and "plan.html" in kept["files"]
+    validate(app.call("fits", {})[1], CALLS["fits"].schema["properties"]["answer"])
+    status, both = app.call("two_fits", {"fits": [first, second]})
+    assert status == 200, both
+    rows = {name: texts for name, *texts in both["rows"]}
+    assert rows["Data"] == ["bench.csv", "bench.csv"] and rows["Structure"][0] == "2:1+b1+delay"
+    assert app.call("two_fits", {"fits": [first, 999]})[1]["error"] == "the project has no fit 999"
+
+
+@pytest.mark.slow
+def test_a_fit_of_what_an_earlier_one_left_is_that_of_the_command(app):
+    first = app.run("fit", SMALL | {"masses": [2]})["answer"]["fit"]
+    app.upload("again.csv", bench_csv(81))
+    second = {"file": "again.csv", "reading": VELOCITY["reading"], "sensor": "1"}
+    end = app.run("fit", {"measurements": [VELOCITY, second], "masses": [1], "left": first})
+    assert end["state"] == "done", end
+    words = end["answer"]["command"].split()
+    assert words[-2:] == ["--left", f"fits/{first}/fit.json"]
+    done = subprocess.run([sys.executable, "-m", "disting", *words[1:], "--json", "-"], cwd=app.folder, capture_output=True, text=True, check=False)  # fmt: skip
+    assert json.loads(done.stdout)["answer"] == end["answer"]["answer"]
+
+
+def test_what_a_stopped_plan_leaves_is_the_fit_alone(app):
+    number = app.run("fit", SMALL | {"masses": [1]})["answer"]["fit"]
+    folder = app.folder / "fits" / str(number)
+    before = sorted(path.name for path in folder.iterdir())
+    job = app.call("plan", {"fit": number})[1]["job"]
+    app.ask("POST", f"/api/jobs/{job}/stop")
+    assert [*app.events(job)][-1][1]["state"] == "stopped"
+    assert sorted(path.name for path in folder.iterdir()) == before
 
 
 @pytest.mark.slow
@@ -163,6 +208,8 @@ def test_circuits_are_fitted_to_a_spectrum(app):
         ({"measurements": [{"file": "none.csv", "reading": {}}]}, "no file"),
         ({"measurements": [VELOCITY, VELOCITY]}, "what is different"),
         ({"measurements": [VELOCITY, VELOCITY | {"change": "paint=2"}]}, "a change is written"),
+        ({"fix": {"m9": 1.0}}, "m9"),
+        ({"controller": "P=2,loop=round"}, "loop"),
         ({"base": True, "measurements": [VELOCITY | {"sensor": "2"}]}, "elastic base"),
     ],
 )

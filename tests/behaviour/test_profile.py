@@ -74,6 +74,7 @@ def test_three_mass_profiles_are_the_oracle_s(chain, representation, count):
         )
 
 
+@pytest.mark.full
 def test_the_oracle_s_row_sets_are_many():
     """A test of the test above: uniform and other matroids occur."""
     sizes = {(p.rank, len(p.form), len(row_bases(p))) for p in map(of, THREE)}
@@ -102,6 +103,7 @@ def test_proven_zeros_are_constant_markov_parameters(chain, count):
     assert set(p.constants) <= {"", "0"}
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     "chain", [*Family(2, damped=False), *Family(2, damped=True), *THREE], ids=str
 )
@@ -151,6 +153,7 @@ def test_more_points_give_the_same_profile_with_more_safety():
         assert (other.safety > base.safety) == (points > 3)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("n_masses", [1, 2, 3, 5, 8, 12])
 @pytest.mark.parametrize(("representation", "count"), [(TF, 0), (MARKOV, 12)])
 def test_the_error_bound_is_below_one_in_a_billion_billions(n_masses, representation, count):

@@ -99,12 +99,14 @@ def test_by_cramers_rule(chain):
     assert sympy.cancel(transfer_function(chain) - expected) == 0
 
 
+@pytest.mark.full
 def test_lag_and_dead_time():
     m1, t1, td = sympy.symbols("m1 T1 Td", positive=True)
     chain = Chain(1, lag=True, dead_time=True, damped=False)
     assert sympy.simplify(transfer_function(chain) - sympy.exp(-S * td) / (m1 * (1 + t1 * S))) == 0
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     "chain",
     [*Family(3, damped=True), Chain(2, ground_dampers=(1,), lag=True, damped=False)],
@@ -206,6 +208,7 @@ def test_any_sample_is_the_oracle_s(chain):
     assert_equal_samples(chain, Representation.MARKOV, 4)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_chain_without_gap_is_the_oracle_s(damped):
     """The third model of condition 9: force and sensor references inside the one block."""
@@ -308,6 +311,7 @@ def times(left, right):
     ]
 
 
+@pytest.mark.full
 @quick
 @given(chains(max_masses=6))
 def test_markov_parameters_and_their_derivatives_are_the_series_at_infinity(chain):
@@ -364,6 +368,7 @@ def test_a_dead_time_is_one_more_invariant():
 # ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     "chain", [*THREE, *Family(4, damped=False), *Family(4, damped=True)], ids=str
 )
@@ -384,6 +389,7 @@ def test_only_powers_of_s_cancel(chain):
     assert q.den.degree() <= mass_states
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("chain", "degrees"),
     [

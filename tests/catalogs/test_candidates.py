@@ -57,6 +57,7 @@ def test_rebuilding_gives_the_same_bytes():
     assert stored.matrix(figure_1()).text() == text
 
 
+@pytest.mark.full
 def test_a_part_of_the_matrix_is_as_computed_now():
     part = figure_1(sizes=(1, 2))
     found, known = stored.matrix(part), stored.shipped_matrix()
@@ -81,6 +82,7 @@ def test_as_compare_says():
         assert verdict.certainty is known.certainty(left, right)
 
 
+@pytest.mark.full
 def test_the_error_bound_is_that_of_the_weakest_verdict():
     assert stored.shipped_matrix().records[0]["safety"] >= 100
     chains, engine = [Family(3, damped=True)[i] for i in (1, 4, 6, 8)], Engine()

@@ -48,7 +48,7 @@ def test_forty_four_models_of_one_to_four_masses():
     assert len(combined_family((4, 2, 1, 3, 3), damped=False)) == 44
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_models_of_different_sizes_are_distinguishable_by_their_degrees(damped):
     """All pairs of 1 to 4 masses: by condition 1, and by 2 where equally many coefficients are
@@ -62,6 +62,7 @@ def test_models_of_different_sizes_are_distinguishable_by_their_degrees(damped):
     assert counts == ({"1": 482} if damped else {"1": 462, "2": 20})
 
 
+@pytest.mark.full
 def test_pairs_of_one_size_are_those_of_the_catalogue(three):
     damped, found = three
     places = {s.name: i for i, s in enumerate(found.subjects)}
@@ -73,6 +74,7 @@ def test_pairs_of_one_size_are_those_of_the_catalogue(three):
         assert found.verdict(i, j).decided_by == verdict.decided_by
 
 
+@pytest.mark.full
 def test_one_sided_inclusion_is_shown(three):
     damped, found = three
     places = {s.name: i for i, s in enumerate(found.subjects)}
@@ -114,6 +116,7 @@ def test_csv_with_names(capsys):
     assert [r["closure"] for r in rows][:3] == ["left-in-right"] * 3
 
 
+@pytest.mark.full
 def test_summary_of_the_command(capsys):
     assert main(["verdicts", "1-3", "--no-cache", "--undamped"]) == 0
     assert (

@@ -130,6 +130,7 @@ def test_what_the_exact_decision_settled_at_random_as_one_fibre_says(n, damped):
     assert exact and told.count(Outcome.ABANDONED) < len(told)
 
 
+@pytest.mark.full
 def test_a_file_that_was_written_is_read(tmp_path):
     found = damper_catalog(3, damped=True)
     path = write(found, Settings(), tmp_path)
@@ -163,6 +164,7 @@ def test_a_missing_file_is_named(tmp_path):
         read(tmp_path, 4, False)
 
 
+@pytest.mark.full
 def test_the_command_writes_the_files(tmp_path, capsys):
     assert main(["catalog", "dampers", "2", "--out", str(tmp_path), "--no-cache"]) == 0
     over = "12 models, 66 pairs, over complex parameters"
@@ -179,6 +181,7 @@ def test_the_command_writes_the_files(tmp_path, capsys):
     ]
 
 
+@pytest.mark.full
 def test_the_command_answers_from_the_shipped_file(tmp_path, capsys):
     target = tmp_path / "pairs.csv"
     assert main(["dampers", "3", "--damped", "--sets", "all", "--csv", str(target)]) == 0
@@ -267,6 +270,7 @@ def test_what_says_more_than_its_evidence_shows_does_not_hold(kind):
     assert [x for x in forged(found) if finding_holds(x, *pair, Settings())] == []
 
 
+@pytest.mark.full
 def test_what_is_settled_of_another_pair_does_not_hold():
     known = settled(False)
     for found, *pair in one_of_each(known).values():

@@ -54,6 +54,7 @@ def test_a3_tells_that_there_is_a_damper_but_not_where():
     assert everything.classes() == (((),), everything.sets[1:])
 
 
+@pytest.mark.full
 def test_the_eleven_models_of_fig_14():
     """Groups of single ground dampers; what is not listed is distinguishable from all."""
     found = {number: [g for g in table(number).classes() if len(g) > 1] for number in range(1, 12)}
@@ -72,7 +73,7 @@ FIG_14 = {
 }
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("domain", [Domain.POSITIVE, Domain.COMPLEX])
 @pytest.mark.parametrize("number", [3, 6, 8])
 def test_as_compare_says(number, domain):
@@ -254,6 +255,7 @@ def test_bad_input_of_the_command(wrong, capsys):
     assert capsys.readouterr().err.startswith("disting: ")
 
 
+@pytest.mark.full
 def test_the_command_for_a_whole_family(capsys, tmp_path):
     assert (
         main(

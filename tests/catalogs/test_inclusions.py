@@ -22,6 +22,7 @@ def altered(records, change):
     return Catalog.from_records(copied)
 
 
+@pytest.mark.full
 def test_both_senses_are_told(records):
     stored = Catalog.from_records(records)
     told = [r["inclusions"] for r in records if "inclusions" in r]

@@ -68,6 +68,7 @@ def test_all_bytes_with_dampers_to_the_ground_are_what_is_computed(damped):
     assert verify_next(damper_catalog(3, damped=damped), shipped_folder(), Engine()) == []
 
 
+@pytest.mark.full
 def test_a_group_with_dampers_to_the_ground_is_what_is_computed():
     stored = next_catalog(3, damped=False, dampers=True)
     numbers = [stored.number(1, (1,)), stored.number(4, (2,))]
@@ -119,6 +120,7 @@ def test_more_structures_are_never_told_apart_by_less():
                 }
 
 
+@pytest.mark.full
 def test_a_damaged_file_is_refused(tmp_path):
     text = build_next(catalog(2, damped=False), Engine())
     path = write(text, tmp_path)

@@ -132,6 +132,7 @@ def test_look_up_in_any_order_and_bad_pairs():
             c.verdict(*pair)
 
 
+@pytest.mark.full
 def test_tables_agree_with_the_verdicts():
     c = catalog(3, damped=True)
     matrix = c.matrix()

@@ -37,6 +37,7 @@ def _copied(found: SizesCatalog, folder: Path, *, size: int = 1, **changes: obje
     return folder
 
 
+@pytest.mark.full
 @DAMPINGS
 def test_every_pair_of_the_models_of_one_to_five_masses_is_there(
     both: dict[bool, SizesCatalog], damped: bool
@@ -98,6 +99,7 @@ def test_what_is_open_is_open_of_four_in_five_damped_masses_only(
     assert unknown == [(4, 5)] * (1126 if damped else 0)
 
 
+@pytest.mark.full
 @DAMPINGS
 def test_models_of_two_sizes_are_distinguishable_in_every_view(
     both: dict[bool, SizesCatalog], damped: bool
@@ -111,6 +113,7 @@ def test_models_of_two_sizes_are_distinguishable_in_every_view(
         } == {Relation.DISTINGUISHABLE}
 
 
+@pytest.mark.full
 @DAMPINGS
 def test_the_counts_of_one_to_four_masses(both: dict[bool, SizesCatalog], damped: bool) -> None:
     found, inside = both[damped], 441 if damped else 417
@@ -137,12 +140,14 @@ def test_groups_are_those_of_each_size(both: dict[bool, SizesCatalog], damped: b
     assert ("4:2", "4:6") in pairs or damped
 
 
+@pytest.mark.full
 def test_a_small_part_of_the_evidence_holds_by_itself(both: dict[bool, SizesCatalog]) -> None:
     for found in both.values():
         part = SizesCatalog(found.catalogs[:3], found.records)
         assert list(false_evidence(part)) == []
 
 
+@pytest.mark.full
 def test_false_evidence_is_found(both: dict[bool, SizesCatalog]) -> None:
     records = [json.loads(json.dumps(r)) for r in both[False].records]
     records[1]["tf"]["evidence"]["right"] = [4, 4]
@@ -162,7 +167,7 @@ def test_the_papers_views_and_other_models_are_refused(both: dict[bool, SizesCat
             both[False].relation(*wrong)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     "changes",
     [{"left": "2:1"}, {"tf": {}}, {"tf": {"relation": "indistinguishable"}}, {"tf": None}],
@@ -179,6 +184,7 @@ def test_what_is_damaged_is_refused(
         )
 
 
+@pytest.mark.full
 def test_another_schema_and_no_file_are_said(
     both: dict[bool, SizesCatalog], tmp_path: Path
 ) -> None:

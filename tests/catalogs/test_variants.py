@@ -98,6 +98,7 @@ def test_the_exact_decision_knows_the_theorem():
     assert not witness.confirms(found.evidence, "fibre", other, other)
 
 
+@pytest.mark.full
 def test_a_dead_time_on_both_sides_changes_nothing():
     chain = Family(3, damped=True)
     for left, right in (
@@ -143,6 +144,7 @@ def test_the_sensor_quantity_changes_no_verdict(n, damped):
     assert all((d.decided_by == found[0].decided_by).all() for d in found)
 
 
+@pytest.mark.full
 def test_with_ground_dampers_another_condition_may_decide_but_the_same():
     """One model with a damper to the ground in its free row, the other without: poles at zero
     of different multiplicity.

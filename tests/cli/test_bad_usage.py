@@ -96,7 +96,7 @@ def refused(capsys, *arguments):
     return told[0]
 
 
-@pytest.mark.thin(15)
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("arguments", "says"), WORDS, ids=[" ".join(words)[:60] for words, _ in WORDS]
 )
@@ -117,6 +117,7 @@ def test_control_characters_do_not_reach_the_terminal(capsys, words):
     assert refused(capsys, *words).isprintable()
 
 
+@pytest.mark.full
 def test_what_is_quoted_is_shortened(capsys):
     assert len(refused(capsys, "doctor", "1" * 100_000)) < 1000
     assert "for instance 3:4" in refused(capsys, "compare", "3:1" * 100_000, "3:1")

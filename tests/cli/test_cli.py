@@ -36,6 +36,7 @@ def test_compare_explains_one_pair():
     assert "2^-1" in done.stdout
 
 
+@pytest.mark.full
 def test_compare_as_json_of_shipped_computed_and_mixed_pairs():
     shipped = json.loads(called("compare", "3:2", "3:5", "--json", "--undamped").stdout)
     found = (shipped["relation"], shipped["decided_by"], shipped["certainty"], shipped["domain"])
@@ -56,6 +57,7 @@ def test_compare_as_json_of_shipped_computed_and_mixed_pairs():
     assert (mixed["left"], mixed["right"], mixed["relation"]) == ("2:1", "3:1", "distinguishable")
 
 
+@pytest.mark.full
 def test_compare_reads_ground_dampers_lag_and_dead_time():
     found = json.loads(called("compare", "3:1+b1", "3:4+b3+lag", "--damped", "--json").stdout)
     assert (found["left"], found["right"], found["relation"]) == (
@@ -147,6 +149,7 @@ def test_every_command_of_the_grammar_has_what_runs_it():
             assert callable(command.work()), command.name
 
 
+@pytest.mark.full
 def test_help_on_everything():
     names = [
         "models",
@@ -205,6 +208,7 @@ def test_worker_processes_and_a_dask_cluster_give_the_same_verdicts(tmp_path):
     assert done.stdout == alone
 
 
+@pytest.mark.full
 def test_the_exact_decision_settles_what_conditions_leave_open():
     table = rows(called("verdicts", 3, "--damped", "--domain", "complex", "--csv", "-").stdout)
     exact = {
@@ -225,6 +229,7 @@ def test_the_exact_decision_settles_what_conditions_leave_open():
     assert (paper["relation"], paper["decided_by"]) == ("undecided", "")
 
 
+@pytest.mark.full
 def test_ranges_and_positive_parameters_are_told_both_ways():
     done = called("compare", "4:2", "4:6", "--undamped").stdout.splitlines()
     assert done[0] == "SOMETIMES"
@@ -250,6 +255,7 @@ def test_ranges_and_positive_parameters_are_told_both_ways():
         assert refused.returncode == 2 and says in refused.stderr
 
 
+@pytest.mark.full
 def test_a_verdict_is_over_positive_parameters_where_nothing_is_said_and_over_complex_ones_in_the_papers_view():
     domains = {
         (): "positive",
@@ -317,6 +323,7 @@ def test_the_doctor_names_what_is_there():
     }
 
 
+@pytest.mark.full
 def test_proofs_on_request():
     table = rows(called("verdicts", 3, "--damped", "--prove", "--csv", "-").stdout)
     assert {r["certainty"] for r in table if r["decided_by"] in ("4", "5")} == {"proven"}

@@ -130,7 +130,7 @@ def test_a_pair_of_many_unknowns_says_so_and_can_be_stopped() -> None:
     assert first == f"disting: {LONGER}{LESS}\n" and (process.returncode, said) == (130, "")
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     "command", ["verdicts 3", "models 5", "models 3 --also lock=2", "report 1 --undamped --out {}"]
 )

@@ -66,6 +66,7 @@ def test_a_file_of_the_verdict_and_the_verdict_are_one_answer(tmp_path):
     assert json.loads(called("compare", "2:1", "2:2", "--json").stdout) == whole
 
 
+@pytest.mark.full
 def test_what_cannot_be_determined_is_said_before_the_reason():
     """Of a shipped pair, of one that is computed, of a network; of none where all is determined."""
     said = "Not all of {} can be determined: what is measured fixes {} combinations of its {} parameters."
@@ -87,6 +88,7 @@ def test_a_chain_has_a_mass():
     assert "'0:1': a chain has one mass or more, for instance 3:1" in done.stderr
 
 
+@pytest.mark.full
 def test_networks_and_models_of_a_file_are_proven_apart(tmp_path):
     """By ranks that were counted at random points: the branched machine and the one in a row."""
     asked = ("compare", BRANCHED, ROW, "--conditions", "1-5")

@@ -88,6 +88,7 @@ def test_what_is_simulated_is_selected(files, fitted):
     assert np.median(np.abs(predict(chain, values, train.omega) / train.G - 1)) < 1e-3
 
 
+@pytest.mark.full
 def test_the_printed_result_says_what_matters(fitted):
     said, _ = fitted
     assert "; 2:1+b2+delay explains this data (chi2 per line " in said
@@ -221,6 +222,7 @@ def test_time_series_are_fitted_like_their_response():
     assert "period of 2500 samples (1 s) detected" in raw.stderr
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -82,6 +82,7 @@ def parsed(*arguments):
     return data(parser().parse_args(["fit", *map(str, arguments)]))
 
 
+@pytest.mark.full
 def test_columns_and_files_of_two_sensors_are_the_same_data(bench):
     columns = parsed(bench["both"], "--sensor", "1,2")
     named = parsed(bench["both"], "--sensor", "1,2", "--column", "Re motor,Re load")
@@ -95,6 +96,7 @@ def test_columns_and_files_of_two_sensors_are_the_same_data(bench):
     assert swapped.further[0] == FurtherResponse(columns.train, Setup(sensor="1"))
 
 
+@pytest.mark.full
 def test_test_data_go_to_their_sensors(bench):
     found = parsed(bench["both"], "--sensor", "1,2", "--test", bench["both"])
     assert found.test == found.train and found.further[0].test == found.further[0].measured
@@ -105,6 +107,7 @@ def test_test_data_go_to_their_sensors(bench):
     assert len(found.train) == len(found.further[0].test) == 20
 
 
+@pytest.mark.full
 def test_experiments_say_what_is_locked_and_what_is_added(bench):
     found = parsed(
         bench["both"],
@@ -200,6 +203,7 @@ REFUSED = [
 ]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("arguments", "said"), REFUSED)
 def test_what_cannot_be_fitted_is_refused_in_a_sentence(bench, arguments, said):
     given = [bench.get(a, a.format(**bench)) for a in arguments]

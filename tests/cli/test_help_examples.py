@@ -2,6 +2,7 @@
 
 import shlex
 from pathlib import Path
+from shutil import copy
 
 import pytest
 
@@ -40,16 +41,21 @@ def test_an_example_works(
     assert status_of(line) == 0, capsys.readouterr()
 
 
-@pytest.fixture
-def fitted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A folder with a file of a fit."""
-    monkeypatch.chdir(tmp_path)
-    assert status_of("disting fit --demo --masses 1-2 --json FIT.json") == 0
+@pytest.fixture(scope="module")
+def fit_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A file of a fit."""
+    path = tmp_path_factory.mktemp("fitted") / "FIT.json"
+    assert status_of(f"disting fit --demo --masses 1-2 --json {path}") == 0
+    return path
 
 
 @pytest.mark.full
 @pytest.mark.parametrize("line", [line for line in EXAMPLES if line not in CHEAP])
-def test_a_longer_example_works(line: str, fitted: None) -> None:
+def test_a_longer_example_works(
+    line: str, fit_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    copy(fit_file, tmp_path)
+    monkeypatch.chdir(tmp_path)
     assert status_of(line) in (0, 1)
 
 

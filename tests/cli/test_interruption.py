@@ -36,6 +36,7 @@ def test_a_warm_cache_gives_the_same_verdicts_with_all_that_is_told_of_them(tmp_
     assert entries(cache) > 9
 
 
+@pytest.mark.full
 def test_cache_is_filled_reported_and_cleared(tmp_path):
     cache = tmp_path / "cache.sqlite3"
     paper = ("verdicts", 3, "--undamped", "--conditions", "1-9", "--csv", "-")
@@ -210,6 +211,7 @@ def test_an_interrupt_while_work_imports_is_told_as_any_other(tmp_path, monkeypa
         assert pressed(BEGUN, IN_WORK, *CIRCUITS) == (130, said)
 
 
+@pytest.mark.full
 def test_an_interrupt_while_the_process_ends_is_silent():
     at_exit = PRESSED + "import atexit; atexit.register(press)\n"
     ending = at_exit + BEGUN.removeprefix(PRESSED)
@@ -224,6 +226,7 @@ def test_an_interrupt_in_a_callback_is_not_lost():
     assert pressed(program, IN_WORK, *CIRCUITS) == (-signal.SIGINT, "")
 
 
+@pytest.mark.full
 def test_where_interrupts_are_ignored_they_stay_ignored():
     """As nohup and a shell's background jobs ask for."""
     ignoring = BEGUN.replace("default_int_handler", "SIG_IGN")
@@ -289,7 +292,7 @@ def test_a_reader_gets_the_lines_it_wants():
 DEFAULT = {("doctor", "<&- >&- 2>&-"), ("verdicts 2 --csv -", ">&-")}  # the others by hand
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("arguments", "closed"),
     [
@@ -347,6 +350,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.full
 @pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal of this system sends otherwise")
 @pytest.mark.parametrize("pause", [*by_hand(0.1), 0.2, *by_hand(0.3)])
 def test_workers_that_are_still_importing_end_by_ctrl_c_in_silence(tmp_path, pause):

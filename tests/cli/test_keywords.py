@@ -221,6 +221,7 @@ def test_a_new_option_is_missing_from_the_table():
             test_an_option_is_a_keyword_or_says_why_not("draw")
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("path", "option"), sorted({each for command in TABLE for each in taken(command)})
 )

@@ -80,6 +80,7 @@ def test_a_page_lies_in_the_folder_and_is_the_same_again(bode, tmp_path):
     assert "quantity acceleration; if not, give" in page and page.count("<svg class") == 2
 
 
+@pytest.mark.full
 def test_what_is_refused_is_shown_with_status_0_and_what_is_no_table_is_not(bode, tmp_path):
     few = tmp_path / "few.csv"
     few.write_text("\n".join(bode.read_text().splitlines()[:5]))
@@ -103,6 +104,7 @@ def two(tmp_path):
     return path
 
 
+@pytest.mark.full
 def test_several_sensors_and_experiments_are_shown_one_after_the_other(two):
     """As a fit reads them."""
     words = (two, "--sensor", "1,2", "--sign=+,-", "--experiment", f"{two}:lock=2")
@@ -143,6 +145,7 @@ def test_a_file_that_is_not_read_hides_no_other(bode, tmp_path):
     assert alone.returncode == 2 and alone.stdout == "" and "other.csv" in alone.stderr
 
 
+@pytest.mark.full
 def test_a_sensor_without_a_response_is_shown_with_the_reason(two):
     plain = json.loads(called("look", two, "--sensor", "1,2,3", "--json", "-").stdout)
     first, last = plain, plain["further"][-1]
@@ -150,6 +153,7 @@ def test_a_sensor_without_a_response_is_shown_with_the_reason(two):
     assert last["doubts"][0].startswith("two.csv holds 2 responses, for 3 sensors")
 
 
+@pytest.mark.full
 def test_the_demonstration_is_shown_as_a_fit_reads_it(bode):
     done = called("look", "--demo")
     assert done.returncode == 0 and "response: acceleration" in done.stdout
@@ -198,6 +202,7 @@ def test_a_curve_without_range_lies_in_the_middle():
     assert curve(np.arange(4.0), np.arange(4.0), 2, 1, ASCII) == [".'"]
 
 
+@pytest.mark.full
 def test_diagrams_keep_to_their_width():
     hertz = np.geomspace(1, 1000, 50)
     response = 1 / (1 + 1j * hertz / 30)

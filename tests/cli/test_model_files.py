@@ -68,6 +68,7 @@ def test_a_pair_that_is_left_open_is_told_with_its_reason(tmp_path):
     )
 
 
+@pytest.mark.full
 def test_conditions_and_json_are_those_of_chains(models, tmp_path):
     found = told(rows(called("verdicts", models, "--conditions", "1-5", "--csv", "-").stdout))
     assert found["drive", "by hand"] == "undecided" and found["two leaks", "drive"] == APART
@@ -92,6 +93,7 @@ def test_workers_give_the_same_verdicts(models):
     assert disting("verdicts", models, "--json", "-", "--jobs", 2).stdout == alone
 
 
+@pytest.mark.full
 def test_compare_names_a_model_of_a_file_or_a_chain(models):
     done = called("compare", f"{models}:two leaks", f"{models}:exchange")
     assert done.stdout.startswith("SOMETIMES\n\n  two leaks  G(s) = k12/(")
@@ -103,6 +105,7 @@ def test_compare_names_a_model_of_a_file_or_a_chain(models):
 HOSTILE = ["=1+1", "+cmd", "-2+3", "@SUM(A1)", "x,=cmd()", "x; =cmd()", '"<b>', "a'b", "{R}"]
 
 
+@pytest.mark.full
 def test_names_are_no_formulas_of_a_spreadsheet(tmp_path):
     path = tmp_path / "models.json"
     entries = [
@@ -142,6 +145,7 @@ def test_bad_usage_is_one_sentence(command, cause, models, tmp_path):
     assert cause in done.stderr and done.stderr.count("\n") == 1
 
 
+@pytest.mark.full
 def test_equivalents_of_a_model_in_a_file(models):
     """Two vessels are two low passes for some values: k = k12 and both poles, in either order."""
     values = "k12=1,k01=2,k02=5"

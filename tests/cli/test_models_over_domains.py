@@ -8,7 +8,7 @@ from tests.cli.process import called
 SIGNED = "R0-p(L1,R2)-p(R1,C1)"
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("domain", ["complex", "real", "positive"])
 def test_a_network_over_a_domain(domain):
     said = called("models", SIGNED, "--domain", domain).stdout.splitlines()

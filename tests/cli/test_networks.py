@@ -232,6 +232,7 @@ def test_damaged_files_are_refused(fit_file, tmp_path, change, words):
     assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("command", "words"),
     [
@@ -292,6 +293,7 @@ def test_formulas_in_three_languages():
     assert sorted(space["equivalent"]) == ["C1", "C2", "C3", "R0", "R1", "R2", "R3"]
 
 
+@pytest.mark.full
 def test_where_formulas_are_not_known_it_is_said():
     done = called("equivalents", LADDER, "--to", VOIGT, "--formulas")
     assert (done.returncode, done.stderr) == (0, "")
@@ -327,6 +329,7 @@ def test_other_values_of_the_same_network():
     assert done.stdout.startswith(f"{cell}: 1 of 1 network equivalent")
 
 
+@pytest.mark.full
 def test_values_at_which_there_is_none_are_explained():
     one, two = "p(R1,C1)-p(R2,C2)", "p(C1,R1-p(C2,R2))"
     done = called("equivalents", one, "--to", two, "--set", "R1=1,R2=2,C1=2,C2=1")

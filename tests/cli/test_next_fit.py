@@ -62,6 +62,7 @@ def test_each_pair_has_a_sentence(said, path):
     assert "at the fitted values, before a rival is fitted again" in said
 
 
+@pytest.mark.full
 def test_the_group_is_told_what_next_tells_of_its_names(said):
     by_name = called("next", "3:1", "3:11", "--damped").stdout
     for line in by_name.splitlines()[2:]:
@@ -81,7 +82,7 @@ PLACES = [
 ]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("command", ["next", "plan"])
 @pytest.mark.parametrize("way", PLACES, ids=str)
 def test_numbers_that_no_fit_writes_are_refused(path, tmp_path, way, command):
@@ -107,12 +108,14 @@ def test_a_deep_file_is_no_file_of_a_fit(tmp_path, command):
         assert done.returncode == 2 and done.stderr.count("\n") == 1
 
 
+@pytest.mark.full
 def test_costs_change_what_is_cheapest(path):
     done = called("next", path, "--cost", "sensor=9,move=9,lock=0.5")
     (twin,) = [line for line in done.stdout.splitlines() if line.startswith("3:11: ")]
     assert "locked (cost 0.5)" in twin
 
 
+@pytest.mark.full
 def test_tables_hold_all_pairs_of_places(path):
     done = called("next", path, "--csv", "-")
     rows = list(csv.DictReader(io.StringIO(done.stdout)))
@@ -130,6 +133,7 @@ def test_tables_hold_all_pairs_of_places(path):
     assert float(moved["noncentrality"]) == pytest.approx(step.noncentrality)
 
 
+@pytest.mark.full
 def test_plain_data_says_what_the_numbers_are(path):
     plain = json.loads(called("next", path, "--json", "-").stdout)
     assert [one["name"] for one in plain["structures"]] == ["3:1", "2:1+b1", "3:11"]
@@ -166,6 +170,7 @@ def test_a_brake_is_told_of_where_it_costs_something(path):
     assert plain["measured"]["brake"] == pytest.approx(4 * pi)
 
 
+@pytest.mark.full
 def test_a_set_of_one_has_nothing_to_tell_apart(tmp_path):
     """Said plainly, with the parameter of the largest error, which falls with the root."""
     errors = {name: 0.02 * value for name, value in VALUES.items()}
@@ -191,6 +196,7 @@ def test_a_set_of_one_has_nothing_to_tell_apart(tmp_path):
     assert done.returncode == 2 and "explains its data, so the fit leaves no set" in done.stderr
 
 
+@pytest.mark.full
 def test_several_responses_and_a_fit_that_explains_nothing_are_warned_of(tmp_path):
     chains = [Chain(2, damped=True, ground_dampers=(i,)) for i in (1, 2)]
     members = [member(chain, truth(chain, 2)) for chain in chains]
@@ -200,6 +206,7 @@ def test_several_responses_and_a_fit_that_explains_nothing_are_warned_of(tmp_pat
     assert "has 2 responses; the menu starts from the first one only" in done.stderr
 
 
+@pytest.mark.full
 def test_a_file_that_does_not_tell_its_lines_still_has_its_menu(tmp_path):
     twin = member(FREE, VALUES, **{"3:11": twin_values()})
     path = fit_file(tmp_path / "fit.json", twin, frequencies={"low": 0, "high": 0, "lines": 0})

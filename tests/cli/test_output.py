@@ -114,6 +114,7 @@ def test_names_that_differ_are_written_differently(models: Path, encoding: str) 
     assert names[0] == r"\u03b1\u2192" and names[1] == r"\u03b1->"
 
 
+@pytest.mark.full
 @POSIX
 def test_signs_of_words_stay_readable_where_no_name_needs_them(tmp_path: Path) -> None:
     done = shell("$D compare 3:10 3:11", tmp_path, PYTHONIOENCODING="ascii")

@@ -48,6 +48,7 @@ def test_answer_comes_first_with_what_is_needed(written):
     assert "with the scatter that a fit finds in one measurement" in text
 
 
+@pytest.mark.full
 def test_the_guide_shows_what_is_printed(written):
     """Up to the spectra, whose last digits depend on the machine's linear algebra."""
     done, _ = written
@@ -55,6 +56,7 @@ def test_the_guide_shows_what_is_printed(written):
     assert len(told.splitlines()) > 15 and told in GUIDE.read_text(encoding="utf-8")
 
 
+@pytest.mark.full
 def test_written_spectrum_is_run_by_the_command_that_is_named(written, tmp_path):
     done, folder = written
     command = done.stdout.splitlines()[-1].split()
@@ -205,6 +207,7 @@ def test_plan_and_next_answer_for_fits_of_random_drives(tmp_path, n_masses):
         assert ("alone: no further measurement" if alone else "measure") in done.stdout
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

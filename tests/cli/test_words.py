@@ -73,6 +73,7 @@ def test_what_was_meant_is_named_with_the_help_of_the_command(
     assert says in done.stderr and done.stderr.endswith(f"(see '{command} --help')\n")
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("words", "says"), WITH_A_REMEDY)
 def test_a_mistake_is_answered_with_cause_and_remedy(
     words: tuple[str, ...], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -102,6 +103,7 @@ def test_lists_of_models_fit_eighty_columns(n: int) -> None:
         assert max(map(len, called("models", n, kind).stdout.splitlines())) <= 80
 
 
+@pytest.mark.full
 def test_a_long_list_is_told_at_once_and_says_what_it_leaves_away() -> None:
     told = called("models", 8).stdout
     assert told.count("[1") >= 574 and "· not computed (--ranks)" in told

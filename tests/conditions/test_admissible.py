@@ -151,6 +151,7 @@ def test_catalogues_decisions_and_single_pairs_say_the_same(small, damped):
             assert (one.relation, one.evidence, shares(one)) == (v.relation, v.evidence, shares(v))
 
 
+@pytest.mark.full
 def test_nothing_is_asked_of_the_papers_views(small):
     header, *rows = small[True].to_csv(View.COMBINED).splitlines()
     assert header.endswith(",image,closure,left_positive,right_positive,damped,quantity")
@@ -202,6 +203,7 @@ def test_altered_shares_are_found_out(small):
         assert any("7:6" in sentence for sentence in false_evidence(Catalog.from_records(altered)))
 
 
+@pytest.mark.full
 def test_altered_evidence_of_a_verdict_is_refused():
     two, six = Family(4, damped=False)[2], Family(4, damped=False)[6]
     true = compare(two, six, query=POSITIVE).evidence
@@ -231,6 +233,7 @@ def test_a_smaller_error_than_the_bound_is_refused():
     assert not proves(replace(found, safety=found.safety + 1), family[1], family[4])
 
 
+@pytest.mark.full
 def test_shares_to_findings():
     two, six = Family(4, damped=False)[2], Family(4, damped=False)[6]
     always, sometimes = positive_finding(two, six), positive_finding(six, two)
@@ -298,6 +301,7 @@ def test_over_real_parameters(small):
     assert list(false_evidence(small[False])) == []
 
 
+@pytest.mark.full
 def test_the_page_says_which_positive_models_have_equivalents(small):
     text = str(payload(small[True], [over(small[True], view) for view in VIEWS]))
     assert "No generic {R} with positive parameters has a positive equivalent {L}." in text

@@ -39,6 +39,7 @@ def test_the_row_that_differs_decides_chains_of_any_size(pair, part):
     assert not Witness().confirms(found.evidence, "fibre", pair[0], pair[0])
 
 
+@pytest.mark.full
 def test_decisions_and_one_pair_agree():
     engine = Engine()
     subjects = [engine.subject(name, c) for name, c in zip("ab", WALLED, strict=True)]
@@ -72,7 +73,7 @@ def six(gap, first, second):
     return Chain(6, *(grounded if gap else (0, 0, first, 0, second)), damped=True)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("name", ["msolve", "Singular"])
 def test_an_installed_program_changes_no_verdict(name, monkeypatch, tmp_path):
     script = tmp_path / name

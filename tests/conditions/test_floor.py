@@ -25,6 +25,7 @@ LONG = [
 ]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("safety", [-3, 0, 1, 99])
 @pytest.mark.parametrize("outcome", [Outcome.HOLDS, Outcome.FAILS, Outcome.SOMETIMES])
 def test_a_finding_below_the_floor_is_abandoned(outcome, safety):
@@ -77,6 +78,7 @@ def test_only_bounded_findings_have_a_bound():
     assert shortfall(Certainty.THEOREM, 0) == shortfall(None, 0) == ""
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right"), [pytest.param(*LONG[0], marks=pytest.mark.slow), *LONG[1:]], ids=str
 )
@@ -146,6 +148,7 @@ def test_a_rank_of_all_free_rows_is_proven_only_where_the_others_are_proven_cons
     assert handmade([[1, 0], [0, 1], [0, 0]], labels=labels).rank_proven
 
 
+@pytest.mark.full
 def test_a_family_is_as_sure_as_all_of_its_pairs():
     assert joint_safety([]) == 0
     assert joint_safety([121]) == 121

@@ -29,6 +29,7 @@ def sum_of(*bits):
     return sum(Fraction(1, 2**b) for b in bits)
 
 
+@pytest.mark.full
 def test_equal_closures_of_chains_count_both_ranks():
     """Five undamped masses whose ranks are less than both their parameters and their
     coefficients.
@@ -78,7 +79,7 @@ def test_only_equality_needs_ranks_and_only_those_that_are_not_proven(outcome):
     assert sum_of(joined.safety + 1) < total <= sum_of(joined.safety)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_family_counts_each_rank_that_tells_who_may_lie_in_whom(damped):
     """Also where no condition that decides looks at the model's profile."""

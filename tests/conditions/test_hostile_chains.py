@@ -9,6 +9,7 @@ from disting import Chain, Quantity, Query, Relation, View, compare
 VIEWS = [View.EXACT, View.REAL, View.POSITIVE]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize(
     "extras", [{}, {"lag": True}, {"ground_dampers": (1,)}, {"dead_time": True}]

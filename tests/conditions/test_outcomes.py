@@ -219,7 +219,7 @@ def test_more_than_64_invariants_that_depend_on_each_other_are_not_searched():
     assert not isinstance(handmade([*[[0]] * 65, [1]]).matroid, NoMatroid)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("limit", "lost"), [(0, 14), (35, 14), (36, 4), (2000, 0)])
 def test_a_small_limit_leaves_pairs_undecided_and_never_decides_wrongly(limit, lost):
     """36 subsets are enough for 9 coefficients of dual rank 2, but not for 13 Markov parameters."""

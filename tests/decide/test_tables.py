@@ -47,6 +47,7 @@ def needed(name):
     return sum(p.default is p.empty for p in arguments(name))
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("table", "row"), ROWS, ids=lambda x: getattr(x, "name", ""))
 def test_all_functions_of_a_row_are_there(table, row):
     names = [row.decide, row.applies, row.check, row.recheck]
@@ -58,6 +59,7 @@ def test_all_functions_of_a_row_are_there(table, row):
         assert arguments(name)[0].name == first
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("table", TABLES, ids=repr)
 def test_rows_of_a_table_can_stand_for_each_other(table):
     """All take as many arguments, some with a default."""

@@ -33,6 +33,7 @@ def test_values_in_a_text_count_and_given_ones_win():
         assert found.values.equivalents[0].values["R0"] == r0
 
 
+@pytest.mark.full
 def test_models_with_formulas_and_lists_of_them():
     for to in (SAME, ModelList((SAME, LAG)), [LAG, SAME]):
         (found,) = equivalents(LAG, {"k": 6, "T": 2}, to)

@@ -62,6 +62,7 @@ def test_every_member_has_the_same_frequency_response(damped, number, values):
     assert order == sorted(order)
 
 
+@pytest.mark.full
 def test_proportional_damping_makes_more_structures_equivalent():
     assert [
         li.name for li in equivalents("3:1", DAMPED, "3", damped=True).listings if li.members
@@ -166,6 +167,7 @@ def test_other_sizes_dampers_and_extras():
     assert len(equivalents(late, undamped | {"Td": "1e-3"}, late)) == 1
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("change", "words"),
     [

@@ -24,6 +24,7 @@ def values_of(chain):
     return {name: VALUES[name] for name in chain.parameters}
 
 
+@pytest.mark.full
 def test_every_equivalent_of_a_model_with_friction_has_its_frequency_response():
     given = chain_of("3:1+b3", Family(3, damped=True))
     found = equivalents(given, values_of(given), "3+b*")

@@ -108,6 +108,7 @@ def test_a_renaming_is_a_formula():
     assert dict(one.formulas[0][2]) == {"z": "a", "y": "b", "x": "c"}
 
 
+@pytest.mark.full
 def test_the_domain_is_that_of_the_query():
     texts = ["R0-p(R1,C1)", "p(R0,R1-C1)"]
     found = gate(texts, query=Query(View.EXACT, inclusion=False))

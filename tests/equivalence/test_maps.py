@@ -34,7 +34,7 @@ def _ports(chain):
     return (chain.act_plus, chain.act_minus), (chain.meas_plus, chain.meas_minus)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "left", "right", "damped"),
     [
@@ -60,6 +60,7 @@ def test_formulas_give_the_same_transfer_function(n, left, right, damped):
     assert found.certainty is Certainty.PROVEN
 
 
+@pytest.mark.full
 def test_two_masses_in_full_by_sympy():
     chain, other = Family(2, True)[1], Family(2, True)[3]
     found = explicit_map(chain, other)
@@ -74,6 +75,7 @@ def test_two_masses_in_full_by_sympy():
     assert r"m_{1}' &= \frac{m_{1} \left(m_{1} + m_{2}\right)}{m_{2}} \\" in found.latex
 
 
+@pytest.mark.full
 def test_duality_of_eight_masses_is_checked_with_a_bound():
     found = explicit_map(Chain(8, damped=True), Chain(8, 7, 7, 8, 7, 8, damped=True))
     assert found.certainty is Certainty.BOUNDED and found.safety >= 240

@@ -41,7 +41,7 @@ def test_conditions_are_those_worked_out_by_hand():
     assert {*map(inequality, piece.positive)} >= {"R2 > R3", "C1*R2**2 > L1"}
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("texts", PAIRS)
 @pytest.mark.parametrize("way", [1, -1])
 def test_at_random_points_conditions_hold_where_equivalents_are(texts, way):

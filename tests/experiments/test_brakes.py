@@ -64,7 +64,7 @@ def random_pairs(count, seed):
         yield draw.choice(family), draw.choice(family), tuple(sides)
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("case", list(random_pairs(12, "brakes")), ids=str)
 def test_random_brakes(case):
     agrees_with_groebner_bases(*case)
@@ -76,6 +76,7 @@ def test_more_random_brakes(case):
     agrees_with_groebner_bases(*case)
 
 
+@pytest.mark.full
 def test_the_brake_of_one_mass_alone_is_no_brake_of_another():
     """What was given up in silence was proven: the same chain at two places of the brake."""
     found = compare_everywhere("3:1", "3:1", ["brake=1/3:0.5"])
@@ -84,6 +85,7 @@ def test_the_brake_of_one_mass_alone_is_no_brake_of_another():
     assert same.answer.value == "never"
 
 
+@pytest.mark.full
 def test_two_sizes_are_two_experiments():
     pair = Experiment(brakes={1: "0.5"}), Experiment(brakes={1: "0.6"})
     found = compare(A[2], A[2], experiments=[AS_IT_IS, pair], query=COMPLEX)

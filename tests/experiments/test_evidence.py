@@ -74,6 +74,7 @@ def test_a_rank_of_several_experiments_is_not_proven_as_that_of_one():
     assert found.decided_by == "4" and prove(found, left, right) == found
 
 
+@pytest.mark.full
 def test_a_rank_with_a_moved_sensor_is_not_proven_as_that_of_the_chain():
     four = Query(View.EXACT, conditions=("4",))
     moved = [Experiment(sensor=2)]
@@ -100,6 +101,7 @@ def test_over_positive_parameters_a_renaming_decides():
     assert (found.relation.value, found.domain.value) == ("indistinguishable", "positive")
 
 
+@pytest.mark.full
 def test_over_positive_parameters_the_only_equivalent_of_one_experiment_decides():
     """Foster's theorem, and one parameter vector for each behaviour: undamped, collocated."""
     pair = (Experiment(sensor=1), Experiment(sensor=2))
@@ -109,6 +111,7 @@ def test_over_positive_parameters_the_only_equivalent_of_one_experiment_decides(
     assert "no other, so it is that of all experiments" in found.sentence
 
 
+@pytest.mark.full
 def test_over_positive_parameters_points_of_one_kind_prove_nothing():
     pair = (Experiment(sensor=1), Experiment(sensor=2))
     found = compare(U[1], U[4], experiments=[AS_IT_IS, pair])

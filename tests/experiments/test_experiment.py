@@ -23,6 +23,7 @@ A = Family(3, damped=True)
 COMPLEX = Query(View.EXACT)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("given", "said"),
     [
@@ -124,6 +125,7 @@ def test_one_that_sees_nothing_differs_from_one_that_sees_something():
     assert "In experiment 2" in found.sentence and "a sensor that does not move" in found.sentence
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("chain", "experiments"),
     [
@@ -170,7 +172,7 @@ CASES = [
 ]
 
 
-@pytest.mark.thin(5)
+@pytest.mark.full
 @pytest.mark.parametrize(("chain", "changes"), CASES)
 def test_transfer_functions_are_those_of_the_dynamic_stiffness_matrix(chain, changes):
     numbers = {name: Rational(7 * i + 3, i + 2) for i, name in enumerate(chain.parameters)}

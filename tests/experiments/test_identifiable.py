@@ -71,7 +71,7 @@ def test_there_are_468_cases():
     assert (len(TWO), len(THREE)) == (72, 396)
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(("chain", "kind", "i"), [*TWO[::3], *THREE[::24]])
 def test_ranks(chain, kind, i):
     check_ranks(chain, kind, i)
@@ -83,7 +83,7 @@ def test_all_ranks(chain, kind, i):
     check_ranks(chain, kind, i)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("chain", "kind", "i"), TWO[::6])
 def test_whether_other_values_fit(chain, kind, i):
     check_values(chain, kind, i)
@@ -106,6 +106,7 @@ def test_one_experiment_is_what_is_known_of_the_chain_alone():
         )
 
 
+@pytest.mark.full
 def test_a_mirror_image_that_all_experiments_show_keeps_two_sets():
     """Force at one end, sensor at the other: exchanging the ends is seen by no second response of
     the mass between them, and by one of an end.
@@ -119,6 +120,7 @@ def test_a_mirror_image_that_all_experiments_show_keeps_two_sets():
     assert end.level is Level.GLOBAL and (end.least, end.most) == (1, 1)
 
 
+@pytest.mark.full
 def test_more_experiments_never_determine_less():
     chain = Family(3, damped=True)[7]
     one, two = Experiment(), Experiment(sensor=2)
@@ -141,6 +143,7 @@ def test_where_no_sensor_moves_nothing_is_determined():
     assert set(found.levels.values()) == {Level.NOT} and "no sensor moves" in found.sentence
 
 
+@pytest.mark.full
 def test_the_order_of_experiments_says_nothing():
     chain = Family(3, damped=False)[5]
     several = [Experiment(), Experiment(sensor=1), Experiment(locked=1)]
@@ -148,6 +151,7 @@ def test_the_order_of_experiments_says_nothing():
     assert found[0] == found[1]
 
 
+@pytest.mark.full
 def test_it_agrees_with_the_profile_that_verdicts_rest_on():
     for chain in list(Family(3, damped=False))[:4]:
         measured = MeasuredChain(chain, (Experiment(), Experiment(locked=3)))

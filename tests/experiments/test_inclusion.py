@@ -57,7 +57,7 @@ def goes_over(part, whole, used):
 CHAINS = [with_dampers(), with_dampers(1), with_dampers(1, 2), with_dampers(damped=True)]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("used", [TWO, [AS_IT_IS, LOCKED], [SENSOR, INERTIA]])
 def test_a_part_is_a_limit_of_the_whole(used):
     for part, whole in permutations(CHAINS, 2):
@@ -104,6 +104,7 @@ def test_a_shorter_chain_is_a_limit_of_a_longer_one():
     assert compare(long, short, experiments=further, query=EXACT).closure is Inclusion.RIGHT_IN_LEFT
 
 
+@pytest.mark.full
 def test_one_experiment_that_determines_more_excludes():
     """Alone the left model has the larger rank in one experiment, together the smaller one."""
     seen = 0
@@ -135,7 +136,7 @@ def test_what_holds_of_all_holds_of_each():
                 assert alone.closure not in excluded, (left, right, experiment)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("names", [("1:1", "2:2"), ("2:1", "3:2")])
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_rigid_spring_is_a_limit_under_experiments(names, damped):

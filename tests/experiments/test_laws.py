@@ -77,6 +77,7 @@ def test_conditions_and_exact_decision_never_contradict_each_other(case):
         compare(left, right, experiments=some, query=COMPLEX, audit=True, engine=ENGINE)
 
 
+@pytest.mark.full
 @few
 @given(st.data())
 def test_a_single_experiment_is_the_verdict_of_today(data):
@@ -90,6 +91,7 @@ def test_a_single_experiment_is_the_verdict_of_today(data):
     assert relation(left, right, [Experiment()]) == today.relation.value
 
 
+@pytest.mark.full
 @few
 @given(chains(2, 4))
 def test_a_single_experiment_has_the_profile_of_the_chain(chain):
@@ -118,6 +120,7 @@ def test_force_and_sensor_can_be_exchanged(chain, data):
     assert relation(chain, chain, [(there, back), Experiment()]) == "indistinguishable"
 
 
+@pytest.mark.full
 @few
 @given(st.integers(2, 4), st.booleans(), st.data())
 def test_a_locked_mass_cuts_the_chain(n, damped, data):
@@ -132,6 +135,7 @@ def test_a_locked_mass_cuts_the_chain(n, damped, data):
     assert (found.degrees, found.form, found.rank) == (plain.degrees, plain.form, plain.rank)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_two_sensors_at_once_are_one_transfer_function(damped):
     """N1/D and N2/D as (N1 + s^K N2)/(D (s + 1)^(K + 2)): it hides nothing and loses nothing."""

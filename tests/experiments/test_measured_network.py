@@ -154,6 +154,7 @@ def test_the_same_machine_in_other_words_is_never_told_apart():
     assert "mass 3 locked" in same.verdicts[0][1].sentence
 
 
+@pytest.mark.full
 def test_every_place_is_asked_and_a_file_of_it_is_checked():
     data = everywhere_file(LONG, STAR, ["lock=2"], query=EXACT)
     assert [one["places"] for one in data["verdicts"]] == [{"2": i} for i in (1, 2, 3)]
@@ -185,6 +186,7 @@ def test_what_cannot_be_measured_is_refused(models, also, sentence):
         compare_everywhere(*models, [also])
 
 
+@pytest.mark.full
 def test_commands(capsys, monkeypatch):
     monkeypatch.setenv("DISTING_CACHE", "off")
     assert main(["compare", LONG, STAR, "--also", "lock=2", "--domain", "complex"]) == 0

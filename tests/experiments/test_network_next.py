@@ -80,6 +80,7 @@ TEXTS = (
 MENUS = {"machine": KINDS, "circuit": CIRCUIT_KINDS, "compartments": COMPARTMENT_KINDS}
 
 
+@pytest.mark.full
 @given(st.sampled_from(TEXTS), st.data())
 @settings(deadline=None, max_examples=30)
 def test_what_is_measured_against_a_matrix_that_is_written_out(text, data):

@@ -41,7 +41,7 @@ def named(family, *numbers):
     return [(f"{family.n_masses}:{m}", family[m]) for m in numbers]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("pair", SAME)
 def test_the_truth_as_told_by_next(pair, engine):
     found = menu_for(named(A, *pair), engine)
@@ -55,6 +55,7 @@ def test_the_truth_as_told_by_next(pair, engine):
         assert not found.tables[kind].decided.open
 
 
+@pytest.mark.full
 def test_any_second_sensor_settles_the_dual_pair(engine):
     found = menu_for(named(A, 1, 11), engine)
     assert all(found.anywhere(kind) for kind in Costs().kinds(3))
@@ -101,7 +102,7 @@ def test_tables_say_what_compare_says(kind, engine):
         assert found.tables[kind].look_up((0, i), (1, j))[0] is said.relation
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("number", "damped"), list(product(range(1, 12), (False, True))))
 def test_what_repeats_tells_nothing_and_what_is_new_does(number, damped):
     """A structure against itself: the experiment at a place that gains nothing leaves as many
@@ -137,6 +138,7 @@ def test_two_together_at_one_mass_are_at_one_mass_of_the_other(engine):
         assert said.relation is Relation.DISTINGUISHABLE
 
 
+@pytest.mark.full
 def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
     whole = menu_for(named(A, 2, 5), engine)
     tables = {k: whole.tables[k] for k in (LOCK, INERTIA)}
@@ -167,6 +169,7 @@ def test_a_single_mass_is_not_locked():
     assert LOCK not in Costs().kinds(1)
 
 
+@pytest.mark.full
 def test_rows_are_all_pairs_of_places(engine):
     found = menu_for(named(A, 2, 5), engine)
     assert len(list(rows(found))) == 4 * 9
@@ -211,7 +214,7 @@ def agrees_with_other_code(names, kind, i, j):
     return same is (said is Relation.INDISTINGUISHABLE)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("case", DAMPERS[1::5], ids=str)
 def test_truth_with_dampers_to_the_ground(case):
     assert agrees_with_other_code(*case)
@@ -257,6 +260,7 @@ def test_nothing_to_do_and_bad_input(arguments, status, says, capsys, monkeypatc
     assert says in said.out + said.err
 
 
+@pytest.mark.full
 def test_an_inertia_whose_effect_is_foretold_excludes_where_another_one_is(engine):
     """A1 carries force and sensor at mass 1: G/(1 + J s^2 R) there, which no A11 shows."""
     found = menu_for(named(A, 1, 11), engine)

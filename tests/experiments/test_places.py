@@ -94,6 +94,7 @@ def test_one_second_sensor_anywhere_settles_the_first_pair():
         assert found.answer.value == "surely" and len(found.verdicts) == 3
 
 
+@pytest.mark.full
 def test_of_the_reciprocal_twins_it_depends_on_the_place():
     found = compare_everywhere(A[2], A[5], ["sensor=2"], query=COMPLEX)
     told = {places[0][1]: verdict.relation.value for places, verdict in found.verdicts}
@@ -108,6 +109,7 @@ def told(capsys, *arguments):
     return code, capsys.readouterr()
 
 
+@pytest.mark.full
 def test_command_line(capsys):
     code, out = told(capsys, "3:1", "3:11", "--also", "sensor=3/2", "--also", "lock=2/1")
     assert code == 0 and out.out.startswith("DISTINGUISHABLE")
@@ -118,6 +120,7 @@ def test_command_line(capsys):
     assert code == 0 and "nothing is learned from experiment 2" in out.out
 
 
+@pytest.mark.full
 def test_one_chain_is_told_apart_by_its_experiments(capsys):
     code, out = told(capsys, "3:1", "3:1", "--also", "sensor=2/3")
     first, second = "3:1 with sensor 2", "3:1 with sensor 3"
@@ -136,6 +139,7 @@ def test_one_chain_is_told_apart_by_its_experiments(capsys):
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("experiments", "names"),
     [
@@ -174,6 +178,7 @@ def test_two_chains_have_names_of_their_own():
     assert (sides.left.name, sides.right.name) == ("3:1", "3:4")
 
 
+@pytest.mark.full
 def test_command_line_as_json(capsys):
     code, out = told(capsys, "3:1", "3:11", "--also", "sensor=3", "--json")
     data = json.loads(out.out)

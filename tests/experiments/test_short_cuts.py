@@ -54,7 +54,7 @@ def reflected(chain, values):
     return {name(p) if int(p[1]) > chain.gap else p: x for p, x in values.items()}
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("number", "kind"), list(product((2, 4, 5, 8, 9, 10), KINDS)))
 def test_the_standard_form_shows_the_same(number, kind):
     chain = U[number]
@@ -87,6 +87,7 @@ def spots(numbers, kind):
             yield (a, i), (b, j), [measure_with(U[m], Item(kind, at)) for m, at in ((a, i), (b, j))]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("kind", Costs().kinds(3))
 def test_rows_and_parts_never_contradict_the_tables(kind):
     for group in next_catalog(3, damped=False).groups:
@@ -147,6 +148,7 @@ def test_five_damped_masses_have_bounds():
     assert by_ranks.outcome.value == "fails" and by_ranks.safety >= LEAST_SAFETY
 
 
+@pytest.mark.full
 def test_a_shared_list_says_what_a_list_of_its_own_says():
     for i, j in product((1, 2, 3), repeat=2):
         pair = [measure_with(A[m], Item(INERTIA, at)) for m, at in ((2, i), (5, j))]

@@ -61,6 +61,7 @@ def test_all_of_it_by_lists_and_ideals_alone(pair, kind, i, j, same):
     assert told(pair, kind, i, j, BY_THE_EXACT_DECISION) == said(same)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("pair", "kind", "i", "j"), [((2, 5), "sensor", 2, 3), ((9, 10), "locked", 3, 3)]
 )

@@ -42,6 +42,7 @@ def steps(n, dampers, lag, delay):
         yield n, dampers, lag, False
 
 
+@pytest.mark.full
 def test_all_pairs_of_the_candidates_are_those_that_steps_reach():
     tended = {c: reached(c) for c in FREE}
     wrong = [
@@ -56,6 +57,7 @@ def test_all_pairs_of_the_candidates_are_those_that_steps_reach():
     assert not wrong
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("large", "small", "said"),
     [

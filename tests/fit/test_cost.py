@@ -36,6 +36,7 @@ def test_residuals_are_those_of_the_paper(case):
     np.testing.assert_allclose(cost.total(g), np.sum(np.concatenate(literal) ** 2))
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("case", Case)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 def test_the_sensitivity_is_the_derivative_of_the_residual(case, chain):

@@ -58,7 +58,7 @@ def test_known_parameters_are_found_again():
     assert found.parameters == pytest.approx(values, rel=1e-5)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("case", Case)
 def test_noise_is_fitted_at_least_as_well_as_by_the_truth(case):
     chain = Chain(2, damped=True, ground_dampers=(1,), dead_time=True)
@@ -189,6 +189,7 @@ def test_neighbours_are_mutual_and_their_fits_become_starts():
     assert swapped["T1"] == values["Td"]
 
 
+@pytest.mark.full
 def test_a_start_is_made_from_any_candidate_of_the_same_masses():
     chains = [c for c in figure_1((2,)) if c.damped]
     values = {c: truth(c, 3) for c in chains}
@@ -247,6 +248,7 @@ def test_many_lines_take_memory_for_a_part_of_the_tried_frequencies_only():
     tracemalloc.stop()
 
 
+@pytest.mark.full
 def test_bounds_and_fixed_values_are_kept():
     chain = Chain(2, damped=True)
     values = truth(chain, 1)

@@ -328,6 +328,7 @@ def test_scatter_prefers_what_the_file_knows():
     assert "jump" in scatter(jumping, [EXACT]).source and scatter(jumping, [EXACT]).typical > 0.004
 
 
+@pytest.mark.full
 def test_training_against_test_counts_where_it_is_larger():
     one, other = (response(DRIVE, VALUES, noise=0.01, seed=s) for s in (1, 2))
     own, there = scatter(one, [EXACT]), scatter(other, [EXACT])
@@ -409,6 +410,7 @@ def test_what_explains_the_data_goes_before_what_does_not():
     assert "; 2:1+b1+delay explains this data" in first_lines(found)[1]
 
 
+@pytest.mark.full
 def test_what_is_not_determined_has_no_percentage():
     found = select(noisy(ONE_MASS), [ONE])
     errors = replace(found.selected.practical, relative_errors={"m1": 92.0, "b1": 0.5})

@@ -25,6 +25,7 @@ from disting.report.fit.selection_json import candidate_to_dict
 from tests.fit.drives import CHAINS, OMEGA, response, truth
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_state_space_has_the_response(chain, sign):
@@ -64,6 +65,7 @@ def left():
     ]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 @pytest.mark.parametrize("sign", [1, -1])
 def test_zeros_poles_and_gain_have_the_response(chain, sign):

@@ -95,6 +95,7 @@ def test_the_response_is_sure_where_the_parameters_are_not():
     )
 
 
+@pytest.mark.full
 def test_given_parameters_have_no_band():
     found = select(response(DRIVE, VALUES, OMEGA, NOISE), [DRIVE], fix=VALUES)
     assert not confidence(found.described, found.task, OMEGA).amplitude.any()
@@ -120,6 +121,7 @@ def test_fit_percent_of_a_constant_model():
     assert fit_percent(met.described, met.task, met.test) == pytest.approx(100.0)
 
 
+@pytest.mark.full
 def test_fit_percent_is_near_what_the_noise_leaves(found):
     """|G - G_m| is the noise of the lines, 3 % of |G| each."""
     data = found.task.cost.measured

@@ -103,7 +103,7 @@ def vector(chain, delays, seed):
     return values, np.array(list(values.values()))
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("chain", [TWO, THREE, RELATIVE], ids=str)
 @settings(max_examples=15)
 @given(seed=st.integers(0, 10**6))
@@ -119,7 +119,7 @@ def test_the_stacked_response_is_that_of_the_matrix_equations(chain, seed):
         np.testing.assert_allclose(own, exact, rtol=1e-9)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("chain", [TWO, THREE], ids=str)
 @settings(max_examples=15)
 @given(seed=st.integers(0, 10**6))
@@ -380,7 +380,7 @@ MERGED = [
 ]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("setup", "same"), MERGED)
 def test_mirrored_candidates_are_merged_where_every_response_is_mirrored(setup, same):
     """Force and sensor in the middle: a damper at either end is the same, until a response tells

@@ -92,7 +92,7 @@ def look_alike_response(look_alike):
     return response(values, joints, (1, n + 1), (1, n + 1), base=n + 1)
 
 
-@pytest.mark.thin(12)
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("masses", [1, 2, 3, 4])
 @pytest.mark.parametrize("sensor", [1, 2, 3, 4])
@@ -113,6 +113,7 @@ def kinds(chain):
     return [(x.kind.value, x.text) for x in look_alikes(chain, VALUES).found]
 
 
+@pytest.mark.full
 def test_look_alikes_are_those_of_the_theorems():
     """All rooted trees of as many masses and both bases, undamped; damped ones only for two."""
     undamped = kinds(Chain(4, damped=False))
@@ -263,6 +264,7 @@ def test_damped_elastic_base_is_fitted_as_a_candidate(tmp_path):
     assert "mass 1 is the base" in text
 
 
+@pytest.mark.full
 def test_damped_base_of_as_many_masses_is_no_duplicate_and_an_undamped_one_is():
     for damped in (True, False):
         chain, (base,) = Chain(3, damped=damped), on_elastic_bases([Chain(2, damped=damped)])

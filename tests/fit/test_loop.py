@@ -2,7 +2,6 @@
 
 from math import atan, degrees, pi
 
-import control
 import numpy as np
 import pytest
 
@@ -43,6 +42,8 @@ def test_cascade_around_one_mass():
 @pytest.mark.full
 @pytest.mark.parametrize("loop", ["position", "velocity", "cascade"])
 def test_stability_is_that_of_the_closed_loop_poles_and_phase_that_of_python_control(loop):
+    import control  # takes a second
+
     source, seen = np.random.default_rng(7), set()
     for k in range(60):
         n = int(source.integers(2, 5))
@@ -68,7 +69,7 @@ def test_stability_is_that_of_the_closed_loop_poles_and_phase_that_of_python_con
             loop=loop,
         )
         found = margins(chain, p, given)
-        opened = _opened(chain, values, given)
+        opened = _opened(control, chain, values, given)
         roots = control.feedback(opened, 1).poles()
         if np.any(np.abs(roots.real) < 1e-4 * np.abs(roots)) and loop != "velocity":
             continue  # on the border
@@ -83,7 +84,7 @@ def test_stability_is_that_of_the_closed_loop_poles_and_phase_that_of_python_con
     assert seen == {True, False}
 
 
-def _opened(chain, values, given):
+def _opened(control, chain, values, given):
     """L(s) with matrices of python-control."""
     plant = state_space(chain, values)
     velocity = plant.C @ plant.A

@@ -70,6 +70,7 @@ def test_a_machine_counted_from_the_other_end_is_named_after_the_one_that_is_lis
     )
 
 
+@pytest.mark.full
 def test_twins_come_from_the_whole_catalogue_and_behave_the_same():
     late = replace(ROW, dead_time=True)
     values = VALUES | {"Td": 1e-3}
@@ -80,6 +81,7 @@ def test_twins_come_from_the_whole_catalogue_and_behave_the_same():
         assert np.abs(same - 1).max() < 1e-9
 
 
+@pytest.mark.full
 def test_twins_keep_the_limits():
     found, _ = twins(ROW, VALUES, limits_of({}, {"m1": 1.0}))
     assert all(t.parameters["m1"] == pytest.approx(1.0) for t in found)

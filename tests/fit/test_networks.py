@@ -203,7 +203,7 @@ def test_wrong_networks_are_excluded_or_do_not_explain():
         assert (replace(found, fits=(first, other)).selected is first) == is_first
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "excluded"), [(-2.9, False), (-2.0, True), (0.0, True)])
 def test_a_network_that_fits_alike_in_another_place_excludes_none(left, excluded):
     """T is above 8, the cost lower by 0.6, 5 and 9."""

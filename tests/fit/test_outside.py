@@ -41,6 +41,7 @@ def outside(n, share, noise, fixed=(), first=1.0):
     return machines_outside(candidate, task, task.cost, known)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [3, pytest.param(4, marks=pytest.mark.full)])
 def test_where_hardly_anything_is_damped_other_machines_are_as_good(n):
     """Each mode may be that of the base, and the held modes may be shared out in any way."""
@@ -56,12 +57,14 @@ def test_where_hardly_anything_is_damped_other_machines_are_as_good(n):
         assert machine.apart < 0.3 and 0.7 < machine.chi2 < 1.4
 
 
+@pytest.mark.full
 def test_data_that_show_the_damping_exclude_them():
     """Where all joints have the same d / k, others have that too, with the same response."""
     assert len(outside(3, share=4e-4, noise=0.0005)) == 3
     assert outside(3, share=4e-4, noise=0.0005, first=0.1) == ()
 
 
+@pytest.mark.full
 def test_given_values_are_not_compared():
     assert outside(3, 1e-5, 0.02, {"m1": 1.0}) == ()
     assert len(outside(3, 1e-5, 0.02, {"b1": 0.0})) == 3

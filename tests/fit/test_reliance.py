@@ -70,6 +70,7 @@ def test_twins_share_what_the_sensor_shows_and_not_masses_nor_loads(left):
         assert margins(twin.chain, p, LAW).phase == pytest.approx(same.phase, rel=1e-3)
 
 
+@pytest.mark.full
 def test_a_twin_is_drawn_along_with_its_structure(left):
     omega = left.task.cost.measured.omega
     own, *twins = with_twins(left.members, draw_samples(left.members, left.task), omega)
@@ -81,6 +82,7 @@ def test_a_twin_is_drawn_along_with_its_structure(left):
         assert apart < 0.05 * moved and np.ptp(twin.p, axis=0).min() > 0
 
 
+@pytest.mark.full
 def test_a_twin_of_values_far_away_does_the_same_or_is_left_out(left):
     """To first order values a factor e away lead to responses that are others, and overflow."""
     omega = left.task.cost.measured.omega
@@ -117,6 +119,7 @@ def test_zero_has_no_sign():
     )
 
 
+@pytest.mark.full
 def test_draws_scatter_as_the_standard_errors_say(left):
     fit = left.members[0].candidate
     drawn = draws(fit, left.task, 4000)
@@ -126,6 +129,7 @@ def test_draws_scatter_as_the_standard_errors_say(left):
     assert drawn[0] == pytest.approx(list(fit.estimate.parameters.values()))
 
 
+@pytest.mark.full
 def test_a_file_of_the_fit_holds_the_statements(left):
     plain = json.loads(json.dumps(selection_to_dict(left), allow_nan=False))
     assert [s["text"] for s in plain["relied_on"]] == [s.text for s in left.relied_on]

@@ -59,6 +59,7 @@ def test_the_planted_structure_is_selected(selection):
     assert found.standard_errors["m1"] < 0.01
 
 
+@pytest.mark.full
 def test_every_excluded_candidate_has_a_reason_and_kept_ones_share_the_weight(selection):
     assert len(selection.candidates) == 24
     assert all(c.admissible or (c.reasons and c.akaike_weight == 0) for c in selection.candidates)
@@ -67,6 +68,7 @@ def test_every_excluded_candidate_has_a_reason_and_kept_ones_share_the_weight(se
     assert costs == sorted(costs)
 
 
+@pytest.mark.full
 def test_the_simplest_of_what_is_not_excluded_is_selected(selection):
     left = [m.candidate for m in selection.members]
     assert left[0] == selection.selected
@@ -82,6 +84,7 @@ def test_the_simplest_of_what_is_not_excluded_is_selected(selection):
     assert not {c.chain for c in out} & {c.chain for c in left}
 
 
+@pytest.mark.full
 def test_the_json_reads_back_bit_equal(selection):
     plain = json.loads(json.dumps(selection_to_dict(selection)))
     assert model_from_dict(plain["selected"]) == (PLANTED, selection.selected.estimate.parameters)
@@ -133,6 +136,7 @@ def test_workers_give_the_same_selection_and_each_step_tells_how_far_it_is():
     ]
 
 
+@pytest.mark.full
 def test_physical_results_carry_their_errors(selection):
     results = {r.name: r for r in physical(selection.selected, selection.task)}
     assert results["total inertia"].value == pytest.approx(
@@ -150,6 +154,7 @@ def test_physical_results_carry_their_errors(selection):
     )
 
 
+@pytest.mark.full
 def test_sweeps_count_what_each_criterion_allows(selection):
     for criterion in CRITERIA:
         found = sweep(selection.candidates, criterion)
@@ -162,6 +167,7 @@ def test_sweeps_count_what_each_criterion_allows(selection):
         sweep(selection.candidates, "beauty")
 
 
+@pytest.mark.full
 def test_a_profile_rises_on_both_sides(selection):
     found = profile(selection.selected, selection.task, "k12")
     middle = len(found.values) // 2

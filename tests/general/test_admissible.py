@@ -54,7 +54,7 @@ def test_two_compartments_agree_for_some_rates_only(view, left, right):
     assert "has no equivalent in" in verdict.sentence and "∅" in evidence.formula
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right"), PAIRS)
 def test_the_published_rates_are_a_witness_and_others_are_not(left, right):
     rates = (("k01", "1/10"), ("k02", "1"), ("k12", "1"))
@@ -110,6 +110,7 @@ def test_special_points_are_no_witnesses():
     assert alternatives(pair, {"a": 2, "b": 2}, apart).exist(Domain.POSITIVE) is Outcome.FAILS
 
 
+@pytest.mark.full
 def test_a_point_whose_equivalents_are_zero_is_no_witness():
     """(a - 1)^2 = u v: a = 1 alone has no positive u, v."""
     square = Model.from_transfer_function(["(a - 1)**2"], [1, 1], name="square")
@@ -148,6 +149,7 @@ def test_opposite_signs_never_agree():
     assert over(View.REAL, one, other).relation is Relation.INDISTINGUISHABLE
 
 
+@pytest.mark.full
 def test_evidence_is_refused_where_it_is_not_true():
     square, product = (
         Model.from_transfer_function(["(a-1)**2"], [1, 1]),

@@ -259,6 +259,7 @@ def test_signs_against_sympy(tops, bottoms):
     assert counts(found) == (roots.degree(), roots.count_roots(), roots.count_roots(0, None))
 
 
+@pytest.mark.full
 @given(st.lists(st.integers(1, 20), min_size=6, max_size=6))
 @settings(max_examples=15, deadline=None)
 def test_every_equivalent_is_certified_alone(numbers):
@@ -312,7 +313,7 @@ MULTIPORTS = (
 RATIONAL = {"m1": 1, "m2": 2, "m3": 3, "m4": 1, "k12": 1, "k23": 5, "k34": 2}
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("given_text", "other_text", "count"), MULTIPORTS)
 def test_several_ports(given_text, other_text, count):
     """All positive sets: each gives every transfer function exactly."""

@@ -32,7 +32,7 @@ HUGE = {
 }
 
 
-@pytest.mark.thin(12)
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("text", HUGE.values(), ids=HUGE)
 @pytest.mark.parametrize(
     "make",
@@ -78,6 +78,7 @@ CRASHED = (
 )
 
 
+@pytest.mark.full
 def test_no_expression_ends_the_interpreter():
     done = subprocess.run(
         [sys.executable, "-c", CRASHED], capture_output=True, text=True, check=False, timeout=600

@@ -135,7 +135,7 @@ def test_equations_of_few_values(one, other, by_roots, seen, chosen):
             assert all(x > 0 for x in there.values())
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("one", "other"),
     [("R0-p(R1,C1)-p(R2,C2)", "R0-p(C1,R1-p(R2,C2))"), ("1~2~3, 1~4; F1; S1", "1~2~3~4; F1; S1")],
@@ -150,6 +150,7 @@ def test_beside_the_list_of_all_values(one, other):
     assert found == [x.values for x in listed]
 
 
+@pytest.mark.full
 def test_what_needs_more_than_square_roots_is_said():
     with pytest.raises(NoFormulas, match="roots of a polynomial of degree 3 are needed"):
         formulas(LADDER, VOIGT)
@@ -164,6 +165,7 @@ def test_what_can_be_shared_is_shared_equally():
     assert confirm(form, one, two).safety >= 100
 
 
+@pytest.mark.full
 def test_what_is_chosen_of_a_triangle_is_so_of_all_three():
     """The star has R1 and R4 in series: in the bridge R2, R3, R4 are what is chosen with R1."""
     one, two = models("R1-p(R2,C1)", "C1 1 2; R1 1 3; R2 2 3; R3 2 0; R4 3 0; port 1 0")
@@ -172,6 +174,7 @@ def test_what_is_chosen_of_a_triangle_is_so_of_all_three():
     assert confirm(form, one, two).safety >= 100
 
 
+@pytest.mark.full
 def test_a_wrong_formula_is_refused():
     one, two = models(VOIGT, LADDER)
     (form,) = by_parts(one, two)
@@ -192,7 +195,7 @@ def test_one_wrong_sign_of_a_root_is_refused():
         confirm(wrong, one, two)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("kinds", ["RL", "LC"])
 @pytest.mark.parametrize(("sections", "is_open"), [(2, False), (4, True)])
 def test_ladders_of_any_length(sections, is_open, kinds):

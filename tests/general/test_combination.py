@@ -27,7 +27,7 @@ def drawn(model, draw):
     return {name: Fraction(draw.randint(1, 30), draw.randint(1, 30)) for name in model.parameters}
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("pair", [pytest.param(PAIRS[0], marks=pytest.mark.slow), *PAIRS[1:]])
 def test_no_search_finds_what_is_excluded(pair):
     given, other = (of_network(network_of(text)) for text in pair)

@@ -49,7 +49,7 @@ def seen(case, a, b):
     return sum(all(g(r) > 0 for g in at[1:]) for r in real)
 
 
-@pytest.mark.thin(5)
+@pytest.mark.full
 @pytest.mark.parametrize(("equations", "positive", "number"), KNOWN)
 def test_known_numbers(equations, positive, number):
     case = Case(equations, positive)
@@ -59,6 +59,7 @@ def test_known_numbers(equations, positive, number):
     assert number is None or numbers == {number}
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("seed", range(60))
 def test_a_number_that_is_told_is_that_of_every_point(seed):
     draw = random.Random(seed)

@@ -35,7 +35,7 @@ def in_sympy(polynomial, point):
     return sp.expand(total)
 
 
-@pytest.mark.thin(5)
+@pytest.mark.full
 @pytest.mark.parametrize("seed", range(12))
 def test_branches_hold_all_common_zeros(seed):
     """The squarefree polynomial that x satisfies is the same as that of the ideal, and y too."""

@@ -83,7 +83,7 @@ def test_verdicts_that_contradict_a_class_are_refused():
         found.classes()
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("damped", "view"), [(False, View.EXACT), (True, View.EXACT), (True, View.POSITIVE)]
 )

@@ -157,6 +157,7 @@ REFUSED = {
 }  # fmt: skip
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("cause", REFUSED)
 def test_what_is_not_understood_is_refused_in_one_sentence(cause, tmp_path):
     assert cause in refused(tmp_path, REFUSED[cause])

@@ -22,6 +22,7 @@ def test_a_constant_markov_parameter_is_compared_exactly(view):
         assert compare(one, other, query=Query(view)).relation is Relation.DISTINGUISHABLE
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("view", [View.EXACT, View.REAL, View.POSITIVE])
 @pytest.mark.parametrize(
     ("one", "other"),
@@ -60,6 +61,7 @@ def test_gains_over_positive_parameters(left, right, expected):
         assert compare(*models, query=Query(View.POSITIVE)).relation is expected
 
 
+@pytest.mark.full
 def test_a_root_of_odd_degree_is_real():
     left, right = MODEL(["a"], ["1", "1"]), MODEL(["b**3"], ["1", "1"])
     assert compare(left, right, query=Query(View.REAL)).relation is Relation.INDISTINGUISHABLE

@@ -19,6 +19,7 @@ def levels(model, domain="complex"):
     return {name: level.value for name, level in found.levels.items()}
 
 
+@pytest.mark.full
 def test_a_source_that_is_not_seen():
     """The first example of StructuralIdentifiability.jl, whose initial states are parameters: x1' =
     -(a01 + a21) x1 + a12 x2 + u, x2' = a21 x1 - a12 x2 - x3/b, x3' = x3, y = x2. Its answer: a21
@@ -33,6 +34,7 @@ def test_a_source_that_is_not_seen():
     assert {found["x1"], found["x2"]} <= {"local", "global"}
 
 
+@pytest.mark.full
 def test_two_compartments_whose_contents_are_parameters():
     """Of [s - A, b] known by the input, x2 is seen at first and x1 follows from its slope, once a12
     is known: a root of z^2 - (a01 + a12 + a21 - a21) z + a01 a12.
@@ -49,6 +51,7 @@ def test_two_compartments_whose_contents_are_parameters():
     assert levels(empty) == levels(empty, "positive") == {"a21": "global"} | exchanged
 
 
+@pytest.mark.full
 def test_integrators_of_which_two_initial_values_are_known():
     """Of its examples with known initial values: x1' = a + x2 + x3, x2' = b^2 + c, x3' = -c, y = x1,
     x2(0) and x3(0) known. Its answer: a, x1, x2, x3 globally, b locally, c not. A constant is a
@@ -95,6 +98,7 @@ def test_the_last_column_is_the_response_to_the_initial_state(n, inputs, draw):
         assert sp.cancel(mine - true) == 0
 
 
+@pytest.mark.full
 def test_a_measured_decay_is_that_of_the_model():
     """y(t) = C exp(A t) x0, against the poles and residues of the column."""
     model = MatrixModel.from_state_space(TWO, None, [0, 1], x0=["x1", 0])

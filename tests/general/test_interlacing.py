@@ -56,6 +56,7 @@ def test_signs_and_numbers_of_zeros_are_told_apart():
     assert [m and m.sign for m in map(machine_type, turned)] == [-1, 1]
 
 
+@pytest.mark.full
 def test_a_verdict_is_verified_and_a_lie_is_not():
     data = verdict_file(*SAME[0])
     assert data["evidence"]["name"] == "interlacing" and verify(data).status.value == "holds"

@@ -33,6 +33,7 @@ def relation(left, right, a, b, unit):
     return compare(*pair).relation
 
 
+@pytest.mark.full
 def test_factors_that_differ_by_more_than_a_machine_word():
     left = TRANSFER(["a"], [1, "(b+3000000000)*(b+4000000000)"])
     assert compare(left, TRANSFER(["c"], [1, "d"])).relation is Relation.SOMETIMES

@@ -128,7 +128,7 @@ def test_at_rest_nothing_is_seen_of_other_vessels(space):
 EVERY = {name: case[0] for name, case in PUBLISHED.items()} | AT_REST | OWN
 
 
-@pytest.mark.thin(6)
+@pytest.mark.full
 @pytest.mark.parametrize("space", EVERY.values(), ids=EVERY)
 def test_ranks_beside_plain_sympy(space):
     plain, draw = system(*space), Random("ranks")
@@ -138,6 +138,7 @@ def test_ranks_beside_plain_sympy(space):
     assert (found.rank, list(found.identifiable)) == (rank, seen)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("space", OWN.values(), ids=OWN)
 def test_other_values_beside_plain_sympy(space):
     plain, draw = system(*space), Random("values")
@@ -165,6 +166,7 @@ def test_one_entry_alone_is_a_model():
     assert found[0].levels == found[1].levels and found[0].rank == found[1].rank
 
 
+@pytest.mark.full
 def test_sensors_of_a_chain_are_rows_of_a_matrix():
     """Two ways to the same answer: experiments on a chain, and the matrix written by hand."""
     k12, k23, m1, m2, m3, s = symbols("k12 k23 m1 m2 m3 s")
@@ -261,6 +263,7 @@ def test_files(tmp_path):
     assert again.models == found.models and [m.name for m in again] == [m.name for m in found]
 
 
+@pytest.mark.full
 def test_the_command_line_tells_of_files(tmp_path):
     path = tmp_path / "two.json"
     models = [
@@ -299,6 +302,7 @@ BAD = {
 }
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("said", "call"), BAD.items(), ids=BAD)
 def test_bad_input(said, call):
     with pytest.raises(InputError, match=said):

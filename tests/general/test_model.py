@@ -112,6 +112,7 @@ def test_one_expression_is_a_whole_transfer_function():
         Model.from_transfer_function(sp.exp(-s) / (s + k))
 
 
+@pytest.mark.full
 def test_symbols_that_only_look_alike_are_refused():
     """SymPy computes with them as two; as one parameter they would make another model."""
     k, other, s = sp.Symbol("k"), sp.Symbol("k", positive=True), sp.Symbol("s")
@@ -244,6 +245,7 @@ BAD_SPACES = {
 }
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("message", "space"), BAD_SPACES.items(), ids=range(len(BAD_SPACES)))
 def test_bad_state_spaces(message, space):
     with pytest.raises(InputError, match=message):

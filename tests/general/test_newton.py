@@ -92,6 +92,7 @@ def test_what_is_excluded_has_none():
     assert all(counts.values())
 
 
+@pytest.mark.full
 def test_a_double_root_says_nothing_of_those_near_by():
     """(s + 1)^2 is (s + a)(s + b) at a = b = 1; of s^2 + 2 s + q with q > 1 none is."""
     given, other = tf(["1"], ["1", "p", "q"]), tf(["1"], "(s + a)*(s + b)")
@@ -101,6 +102,7 @@ def test_a_double_root_says_nothing_of_those_near_by():
     assert find_equivalent(given, at | {"q": Fraction(5, 4)}, other) is None
 
 
+@pytest.mark.full
 def test_a_negative_zero_is_no_equivalent():
     given, other = tf(["1"], ["1", "p"]), tf(["1"], ["1", "a - 1"])
     assert find_equivalent(given, {"p": Fraction(1, 2)}, other) == pytest.approx((1.5,))

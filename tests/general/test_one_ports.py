@@ -61,7 +61,7 @@ BLOCKING = {
 PAIRS = [pair for group in (PLAIN, SERIES, BLOCKING) for pair in combinations(group.values(), 2)]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right"), PAIRS)
 def test_all_pairs_of_two_rc_one_ports_are_the_same(left, right):
     verdict = compare(model(left, "left"), model(right, "right"), query=Query(view=View.POSITIVE))
@@ -70,11 +70,13 @@ def test_all_pairs_of_two_rc_one_ports_are_the_same(left, right):
     assert verdict.certainty in (Certainty.PROVEN, Certainty.THEOREM)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [1, 3, 4])
 def test_chains_of_more(n):
     assert same_one_ports(model(voigt(n), "Voigt"), model(ladder(n), "ladder"))
 
 
+@pytest.mark.full
 def test_rl_and_lc_by_their_own_elements():
     s = sp.Symbol("s")
     rl = {"Foster": sum(parallel(r(f"R{i}"), s * r(f"L{i}")) for i in (1, 2))}
@@ -96,6 +98,7 @@ def test_one_element_too_few_or_a_sign_is_no_one_port_of_this_kind():
     assert not fills(with_bound)
 
 
+@pytest.mark.full
 def test_a_bound_makes_it_sometimes():
     free, bound = (
         model(r("R0") + parallel(r("R1"), c("C1")), "free"),
@@ -104,6 +107,7 @@ def test_a_bound_makes_it_sometimes():
     assert compare(free, bound, query=Query(view=View.POSITIVE)).relation is Relation.SOMETIMES
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("seed", range(3))
 def test_interlacing_in_numbers(seed):
     """Poles and zeros of the ladder at random values interlace, as the theorem has it."""

@@ -55,6 +55,7 @@ def misfit(given, values, other, text):
     return max(abs(y / x - 1) for x, y in zip(*sides, strict=True))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("pair", "values"), [*zip(PAIRS, POINTS, strict=True)])
 def test_equivalents_of_an_interval_are_written_to_the_digits_that_they_need(pair, values):
     left, right = models(pair)
@@ -63,6 +64,7 @@ def test_equivalents_of_an_interval_are_written_to_the_digits_that_they_need(pai
     assert text and misfit(left, values, right, text) < 5e-9
 
 
+@pytest.mark.full
 def test_the_equivalent_that_a_verdict_names_gives_the_response():
     verdict, sides = compare(*PAIRS[0]), models(PAIRS[0])
     assert verdict.relation is Relation.SOMETIMES
@@ -73,6 +75,7 @@ def test_the_equivalent_that_a_verdict_names_gives_the_response():
     assert misfit(given, values, other, evidence.equivalent) < 5e-9
 
 
+@pytest.mark.full
 def test_values_that_may_be_chosen_have_few_digits_and_all_others_follow():
     left, right = models(CURVE)
     left_given, point, text = common_point(left, right)

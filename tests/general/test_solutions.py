@@ -51,6 +51,7 @@ def test_numbers_against_sympy(model, count, unique):
     assert tuple(same) == unique
 
 
+@pytest.mark.full
 def test_combinations_are_determined_and_independent():
     model = TF(["k"], ["m", "d", "k"])
     found = global_identifiability(model)
@@ -81,6 +82,7 @@ def test_a_vector_presupposes_its_denominators():
     assert (found.count, found.unique, found.is_infinite) == (5, (), False)
 
 
+@pytest.mark.full
 def test_a_solution_that_is_too_large_to_write_down_is_not_counted():
     bridge = of_network(network_of("C1 1 2; R1 1 3; C2 2 3; R2 2 0; R3 3 0"))
     found = global_identifiability(bridge)

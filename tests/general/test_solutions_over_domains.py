@@ -90,6 +90,7 @@ def test_families_against_sympy(family):
             agree(text, 1)
 
 
+@pytest.mark.full
 def test_a_negative_resistance_is_no_second_set():
     found = identifiability(SIGNED, engine=ENGINE)
     assert (found.level, found.least, found.most) == (Level.GLOBAL, 1, 1)
@@ -101,6 +102,7 @@ def test_a_negative_resistance_is_no_second_set():
     assert (real.level, real.least, real.most) == (Level.LOCAL, 2, 2)
 
 
+@pytest.mark.full
 def test_equal_branches_are_unique_up_to_their_exchange():
     found = identifiability(TWINS, engine=ENGINE)
     assert (found.level, found.least, found.most) == (Level.EXCHANGES, 2, 2)
@@ -182,6 +184,7 @@ def test_a_chain_is_one_by_every_door(domain):
         assert found == identifiability(name, damped=False, domain=domain, engine=Engine())
 
 
+@pytest.mark.full
 def test_chains_under_experiments_have_a_domain():
     chain = Family(3, damped=False)[2]
     experiments = [Experiment(), Experiment(sensor=1)]

@@ -53,6 +53,7 @@ def _at(model: Model, values: dict[str, Fraction]) -> int:
     return max(Poly(part, S).degree() for part in (num, den))
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("network", FAMILIES["circuits-4"].networks[::2], ids=lambda n: n.name)
 def test_signs_of_the_resultant_say_whether_a_degree_can_fall(network) -> None:  # type: ignore[no-untyped-def]
     model = of_network(network)
@@ -82,6 +83,7 @@ def test_at_the_special_values_the_degree_is_lower(text, special, generic) -> No
         assert (_at(model, numbers) < max(model.degrees)) == is_special
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("text", "poles", "zeros"),
     [

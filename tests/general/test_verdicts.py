@@ -98,6 +98,7 @@ def test_two_compartments_are_not_said_to_be_the_same_over_the_reals(view):
     assert compare(IRREVERSIBLE, REVERSIBLE, query=Query(view=view)).relation is Relation.SOMETIMES
 
 
+@pytest.mark.full
 def test_over_positive_parameters_where_nothing_is_said():
     """As for chains: rate constants are positive too."""
     found = compare(IRREVERSIBLE, REVERSIBLE)
@@ -212,6 +213,7 @@ def test_any_name_may_be_a_parameter():
     assert compare(one, other, audit=True).relation is DIFFERENT
 
 
+@pytest.mark.full
 def test_what_a_store_kept_names_the_rule_that_decided():
     with Store.open(":memory:") as store:
         told = [

@@ -106,7 +106,7 @@ def test_relations_by_hand(left, right, relation):
         assert positive(one, other).relation is relation
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right", "relation"), PAIRS)
 def test_points_against_groebner_bases(left, right, relation):
     """What is said of all points around a point is true at the point itself."""
@@ -156,6 +156,7 @@ def test_a_root_between_two_formulas():
         assert between
 
 
+@pytest.mark.full
 def test_some_undamped_chains_against_inverse_synthesis():
     family = Family(3, damped=False)
     assert (
@@ -236,7 +237,7 @@ SHARED_FACTORS = [
 ]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right", "relation"), SHARED_FACTORS)
 def test_a_factor_of_two_inequalities_is_one_bound(left, right, relation):
     """Any e, f, g, h: c smaller than f and g, then a1 = f - c, a2 = g - c, and b is what e
@@ -332,6 +333,7 @@ def test_formulas_that_divide_by_zero_are_refused():
     assert fit(Explicit("positive", (there,)), left, right)
 
 
+@pytest.mark.full
 def test_a_linear_case_presupposes_its_denominator():
     """c (d - f)^2 = a: c = a/(d - f)^2 has no value where d = f, and d, f are to be chosen so
     that it has one.
@@ -347,6 +349,7 @@ def test_a_linear_case_presupposes_its_denominator():
             assert is_explicit(verdict.evidence, one, other)
 
 
+@pytest.mark.full
 def test_a_case_is_void_if_a_denominator_becomes_zero():
     """c (d - 1)^2 = a, c^2 (d - 1)^2 + d^3 = b: a = 3, b = 1 has none, as a^2/(d - 1)^2 > 1 for
     d < 2 and d^3 > 1 for d > 1.

@@ -66,6 +66,7 @@ def said(folder):
     return json.loads(package_copy.said(folder, "-c", SCRIPT.format(commands=COMMANDS)))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_command_says_of_it_what_it_says_of_a_spring(said, name):
     (status, magnet), (same, spring) = (said[f"{name}, {kind}"] for kind in ("magnet", "spring"))
@@ -74,6 +75,7 @@ def test_a_command_says_of_it_what_it_says_of_a_spring(said, name):
     assert magnet.replace("magnet", "spring") == words.replace("ground here", "")
 
 
+@pytest.mark.full
 def test_it_is_there_where_it_is_asked_for(said):
     assert said["told apart, magnet"][1].startswith("DISTINGUISHABLE")
     assert said["not told apart, magnet"][1].startswith("INDISTINGUISHABLE")
@@ -121,6 +123,7 @@ print(draw_item(Chain(2, damped=False), Item(MAGNET, 1)).name)
     ]
 
 
+@pytest.mark.full
 def test_what_no_equation_of_motion_has_is_refused(tmp_path):
     """The theorems know powers 0 to 2 of s: another one is no row of this table."""
     said = package_copy.said(with_power(tmp_path, 3), "-c", "import disting.model.kinds", status=1)

@@ -1,17 +1,20 @@
-"""Phrases that may not come back into messages, help texts and headings: a user reads plain English.
-Texts of the package are its string literals without docstrings, f-strings with {} for a value.
+"""Phrases that may not come back into messages, help texts and pages: a user reads plain English.
+Texts of the package are its string literals without docstrings, f-strings with {} for a value, the
+string literals of its scripts, and what its pages show between tags.
 """
 
 import argparse
 import ast
+import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 import disting
 from disting.cli.run import parser
+from tests.report.test_plain_words import PHRASES as PROSE
 
 HOUSE = Path(disting.__file__).parent
 PHRASES = (
@@ -63,9 +66,35 @@ def texts(source: str) -> Iterator[tuple[int, str]]:
             yield from [(node.lineno, node.value)] if plain and " " in node.value else []
 
 
-def faults(text: str) -> list[str]:
+STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"|`(?:[^`\\]|\\.)*`')
+HIDDEN = re.compile(r"\{#.*?#\}|\{%.*?%\}|<script.*?</script>|<[^>]*>", re.DOTALL)
+
+
+def script_texts(source: str) -> Iterator[tuple[int, str]]:
+    """Yield (line, text) of every string of two words or more of a script, with {} for a value."""
+    for found in STRING.finditer(source):
+        if " " in found[0]:
+            text = re.sub(r"\$\{[^}]*\}", "{}", found[0][1:-1])
+            yield source.count("\n", 0, found.start()) + 1, text
+
+
+def page_texts(source: str) -> Iterator[tuple[int, str]]:
+    """Yield (line, text) of what a page shows, with {} for a value."""
+    shown = HIDDEN.sub(lambda found: " " + "\n" * found[0].count("\n"), source)
+    for number, line in enumerate(re.sub(r"\{\{.*?\}\}", "{}", shown).split("\n"), start=1):
+        if line.strip():
+            yield number, " ".join(line.split())
+
+
+def schema_texts(source: str) -> Iterator[tuple[int, str]]:
+    """Yield (line, text) of every description of a JSON Schema."""
+    for found in re.finditer(r'"description": ("(?:[^"\\]|\\.)*")', source):
+        yield source.count("\n", 0, found.start()) + 1, json.loads(found[1])
+
+
+def faults(text: str, phrases: tuple[str, ...] = PHRASES) -> list[str]:
     """The phrases of a text that are on the list."""
-    return [found[0] for p in PHRASES for found in re.finditer(p, text, re.IGNORECASE)]
+    return [found[0] for p in phrases for found in re.finditer(p, text, re.IGNORECASE)]
 
 
 def modules() -> list[str]:
@@ -75,8 +104,12 @@ def modules() -> list[str]:
 def test_a_phrase_is_found() -> None:
     assert faults("--out is no option here: leave it away") == ["leave it away"]
     assert faults("remove --out, which is not supported with --models") == []
+    assert list(script_texts("put(one, `no ${y} is told`)")) == [(1, "no {} is told")]
+    page = '<p class="told">{# told #}\nno {{ y }}<br>is told</p>'
+    assert list(page_texts(page)) == [(2, "no {} is told")]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("room", sorted({path.partition("/")[0] for path in modules()}))
 def test_messages_are_in_plain_words(room: str) -> None:
     found = {
@@ -84,6 +117,22 @@ def test_messages_are_in_plain_words(room: str) -> None:
         for path in modules()
         if path.partition("/")[0] == room and path not in EXEMPT
         for line, text in texts((HOUSE / path).read_text("utf-8"))
+    }
+    assert {where: phrases for where, phrases in found.items() if phrases} == {}
+
+
+@pytest.mark.parametrize(
+    ("kind", "read"), [("html", page_texts), ("js", script_texts), ("json", schema_texts)]
+)
+def test_pages_are_in_plain_words(
+    kind: str, read: Callable[[str], Iterator[tuple[int, str]]]
+) -> None:
+    files = sorted(HOUSE.rglob(f"*.{kind}"))
+    assert len(files) > 15
+    found = {
+        f"{path.name}:{line}: {text[:90]!r}": faults(text, PHRASES + PROSE)
+        for path in files
+        for line, text in read(path.read_text("utf-8"))
     }
     assert {where: phrases for where, phrases in found.items() if phrases} == {}
 

@@ -23,7 +23,7 @@ def assert_bucketed_as_pairwise(subjects, query, engine=ENGINE):
         assert found.rule(i, j) == one.decided_by
 
 
-@pytest.mark.thin(5)
+@pytest.mark.full
 @pytest.mark.parametrize("view", View)
 @pytest.mark.parametrize(("n_masses", "damped"), [(2, True), (3, False), (3, True)])
 def test_buckets_decide_as_pairs_do(n_masses, damped, view):
@@ -37,7 +37,7 @@ def test_buckets_decide_as_pairs_do_for_four_masses(damped, view):
     assert_bucketed_as_pairwise(family(4, damped), Query(view))
 
 
-@pytest.mark.thin(6)
+@pytest.mark.full
 @pytest.mark.parametrize("view", View)
 @pytest.mark.parametrize("damped", [False, True])
 def test_buckets_decide_as_pairs_do_for_some_models_of_four_masses(damped, view):
@@ -46,7 +46,7 @@ def test_buckets_decide_as_pairs_do_for_some_models_of_four_masses(damped, view)
     assert_bucketed_as_pairwise([family(4, damped)[i - 1] for i in chosen], Query(view))
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("limit", [0, 36, 84])
 def test_buckets_decide_as_pairs_do_where_matroids_are_too_large(limit):
     engine = Engine(Settings(subset_limit=limit))
@@ -78,6 +78,7 @@ def test_buckets_decide_as_pairs_do_for_any_query(query, damped, chosen):
     assert_bucketed_as_pairwise([family(3, damped)[i] for i in sorted(chosen)], query)
 
 
+@pytest.mark.full
 @settings(max_examples=15, deadline=None)
 @given(st.data())
 def test_buckets_decide_as_pairs_do_for_any_models_of_one_size(data):
@@ -87,6 +88,7 @@ def test_buckets_decide_as_pairs_do_for_any_models_of_one_size(data):
     assert_bucketed_as_pairwise([subject(replace(chain, lag=lag)) for chain in models], Query())
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_grades_are_those_of_the_verdicts(damped):
     found = ENGINE.decisions(family(3, damped), Query())

@@ -23,7 +23,7 @@ from tests.laws.pairs import (
 )
 
 
-@pytest.mark.thin(5)
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.COMBINED, View.EXACT])
 @pytest.mark.parametrize(("n_masses", "damped"), SMALL)
 def test_no_condition_contradicts_another(n_masses, damped, view):
@@ -68,7 +68,7 @@ def assert_transitive(relations, n):
             assert relations(a, c) is not apart
 
 
-@pytest.mark.thin(5)
+@pytest.mark.full
 @pytest.mark.parametrize("view", View)
 @pytest.mark.parametrize(("n_masses", "damped"), [(3, False), (3, True), (4, False), (4, True)])
 def test_indistinguishability_is_transitive(n_masses, damped, view):
@@ -78,7 +78,7 @@ def test_indistinguishability_is_transitive(n_masses, damped, view):
     )
 
 
-@pytest.mark.thin(5)
+@pytest.mark.full
 @pytest.mark.parametrize("model", range(1, 12))
 def test_indistinguishability_is_transitive_among_ground_dampers(model):
     chain = Family(3, damped=True)[model]

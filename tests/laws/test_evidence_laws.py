@@ -77,6 +77,7 @@ def evidence_of(kind):
     return found, pair
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("kind", "tamper"),
     [
@@ -151,6 +152,7 @@ def test_a_whole_of_larger_rank_is_refused():
     )
 
 
+@pytest.mark.full
 @quick
 @given(pair=similar_pairs(), other=similar_pairs())
 def test_evidence_of_one_pair_never_decides_another_one_wrongly(pair, other):

@@ -42,6 +42,7 @@ def open_pairs():
 PAIRS = range(1 + sum(count for _, _, count in FAMILIES))
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("number", PAIRS)
 def test_what_is_open_is_settled_alike_from_both_sides(number):
     left, right = open_pairs()[number]
@@ -50,6 +51,7 @@ def test_what_is_open_is_settled_alike_from_both_sides(number):
     assert there.relation is back.relation is not Relation.UNDECIDED
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("number", PAIRS)
 def test_its_evidence_checks_again_and_survives_json(number):
     left, right = open_pairs()[number]
@@ -58,6 +60,7 @@ def test_its_evidence_checks_again_and_survives_json(number):
     assert Verdict.from_dict(json.loads(json.dumps(found.to_dict()))) == found
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("number", PAIRS)
 def test_its_evidence_is_refused_for_a_pair_of_the_other_relation(number):
     pairs = open_pairs()
@@ -94,6 +97,7 @@ def rigid(pair):
     return [replace(chain, ground_dampers=()) for chain in pair]
 
 
+@pytest.mark.full
 @quick
 @given(pair=similar_pairs().map(rigid))
 def test_it_never_contradicts_a_condition(pair):
@@ -105,6 +109,7 @@ def test_it_never_contradicts_a_condition(pair):
     )
 
 
+@pytest.mark.full
 @quick
 @given(pair=similar_pairs().map(rigid), markov=st.sampled_from([0, 3]))
 def test_it_is_the_last_to_report(pair, markov):

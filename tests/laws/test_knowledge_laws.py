@@ -55,7 +55,7 @@ def assert_equal_decisions(n_masses, damped, seeds):
         assert np.array_equal(base.representation, other.representation)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_verdicts_do_not_depend_on_the_seed(damped):
     assert_equal_decisions(3, damped, ["one", "two"])
@@ -67,6 +67,7 @@ def test_verdicts_do_not_depend_on_any_of_twenty_seeds(n_masses, damped):
     assert_equal_decisions(n_masses, damped, [f"seed {i}" for i in range(20)])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("points", [1, 2, 6])
 def test_verdicts_do_not_depend_on_the_number_of_points(points):
     engine = Engine(Settings(points=points))

@@ -41,6 +41,7 @@ def test_other_data_is_no_evidence(data):
         evidence_from(data)
 
 
+@pytest.mark.full
 @quick
 @with_examples
 @given(pair=any_pair)

@@ -77,6 +77,7 @@ def bomb(*filters):
     return write
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("filters", "words"),
     [

@@ -30,6 +30,7 @@ def true(frequency):
     return freqz([0, GAIN], [1, -POLE], frequency, fs=RATE)[1]
 
 
+@pytest.mark.full
 def test_the_reference_gives_the_plant_and_its_deviation_in_closed_loop():
     u, y, r = closed_loop()
     alone = TimeSeries(u, y, RATE).response(segment=1000, band=(5, 100))
@@ -49,6 +50,7 @@ def test_the_reference_gives_the_plant_and_its_deviation_in_closed_loop():
     assert np.median(biased) < 1.2
 
 
+@pytest.mark.full
 def test_a_reference_that_is_the_input_changes_nothing():
     u = np.random.default_rng(1).normal(size=20_000)
     y = lfilter([0, GAIN], [1, -POLE], u) + np.random.default_rng(2).normal(size=20_000)
@@ -98,7 +100,7 @@ def test_a_sweep_of_a_position_is_no_loop(seed):
     assert loop_in_noise(u, np.round(np.cumsum(speed) / rate / count) * count, 0) is None
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("noise", [0.05, 0.1])
 def test_a_loop_shows_beside_a_strong_excitation(noise):
     """Little noise, of a speed and of a position."""
@@ -106,6 +108,7 @@ def test_a_loop_shows_beside_a_strong_excitation(noise):
     assert loop_in_noise(u, y, 1) is not None and loop_in_noise(u, np.cumsum(y), 0) is not None
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("seed", range(3))
 def test_a_loop_that_is_slow_beside_the_sampling_shows_and_its_bias_is_estimated(seed):
     """A plant with a time constant of 100 samples, whose disturbance is as strong as its input."""
@@ -121,6 +124,7 @@ def test_a_loop_that_is_slow_beside_the_sampling_shows_and_its_bias_is_estimated
     assert np.mean(np.abs(found.G - exact) ** 2 / found.deviation**2) < 2 < np.mean(alone**2)
 
 
+@pytest.mark.full
 def test_an_input_that_changes_between_samples_is_not_surely_fed_back():
     """A binary input held for 10 samples of which every fourth is recorded, in open loop."""
     source, n = np.random.default_rng(0), 80_000
@@ -198,6 +202,7 @@ def test_a_periodic_reference_tells_period_and_lines():
     )
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("segment", [4096, 8192])
 def test_the_mass_of_a_real_axis_in_closed_loop(segment):
     """95.1 kg published; without the reference the same lines say less than 1 kg."""

@@ -98,6 +98,7 @@ def test_no_lines_between_give_none_and_one_period_no_noise():
     assert single.distortion.noise is None and "noise" not in single.notes[-1].split("show")[-1]
 
 
+@pytest.mark.full
 def test_the_odd_odd_multisine_of_the_bench_shows_its_distortion():
     found = read(
         measured_data("fditools_motorbench_B.mat"),

@@ -43,7 +43,7 @@ def test_noise_that_a_controller_feeds_back_shows_the_loop():
     assert np.mean(error**2) < 2
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     "noises",
     [

@@ -102,7 +102,7 @@ def scope_export(mark, decimal, own_times):
     return "\r\n".join(point) + "\r\n"
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("mark", "decimal", "own"), [("\t", ",", False), (";", ".", True), (",", ".", False)]
 )
@@ -194,7 +194,7 @@ def lvm(columns, decimal, steps=("1.0E-3", "1.0E-3")):
     )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("columns", "decimal"), [("No", ","), ("Multi", ".")])
 def test_a_record_of_labview(tmp_path, columns, decimal):
     path = tmp_path / "a.lvm"

@@ -45,6 +45,7 @@ def sampled(values, omega, order, delay=0, lag=None, rate=RATE):
     return np.array(solved) * z**-delay
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("shown", ["position", "velocity", "acceleration"])
 @pytest.mark.parametrize("order", [0, 1])
 @pytest.mark.parametrize("delay", [0, 2])
@@ -141,6 +142,7 @@ def test_a_hold_that_explains_the_actuator_is_found(order, delay, dead_time):
         assert held(estimate, Task(Cost(other))) is None
 
 
+@pytest.mark.full
 def test_no_hold_is_found_for_a_lag_that_is_none():
     chain = replace(DRIVE, quantity="velocity", lag=True)
     assert held(*near(recorded(lag=1.6e-3), chain, T1=1e-3)) is None
@@ -168,6 +170,7 @@ def test_hold_and_welch_are_seen_together():
     np.testing.assert_allclose(both / window, hold / bare, rtol=2e-3)
 
 
+@pytest.mark.full
 def test_every_file_takes_a_hold(tmp_path):
     file = tmp_path / "frf.csv"
     rows = [f"{f},{-1 / f**2},0.01" for f in range(5, 40)]

@@ -27,6 +27,7 @@ def written(path, header, columns):
     return path
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("header", "columns", "ohms"),
     [
@@ -109,6 +110,7 @@ def test_a_written_impedance_is_one_when_it_is_read_back(tmp_path):
     assert read(copy) == found and read(copy).is_impedance
 
 
+@pytest.mark.full
 def test_data_frames(tmp_path):
     pd = pytest.importorskip("pandas")
     frame = pd.DataFrame({"f [Hz]": HERTZ, "Re(Z)/Ohm": Z.real, "Im(Z)/Ohm": Z.imag})
@@ -129,6 +131,7 @@ def test_no_chain_is_fitted_in_python():
     assert as_impedance(motion).is_impedance
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("header", ["freq/Hz,Re(Z)/Ohm,-Im(Z)/Ohm", "f [Hz],Zreal,Zimag"])
 def test_the_command_shows_what_was_read_and_how_to_fit_it(tmp_path, header):
     rng = np.random.default_rng(1)

@@ -252,6 +252,7 @@ def record(path, header="t [s],u [Nm],y [rad]", noise=0.0, slope=0.0):
     return write(path, header, zip(t.tolist(), u.tolist(), (y + slope * t).tolist(), strict=True))
 
 
+@pytest.mark.full
 def test_a_record_shows_its_sampling_excitation_trend_and_distortion(tmp_path):
     seen = look(record(tmp_path / "a.csv", noise=0.01, slope=0.5), input="u [Nm]", output="y [rad]")
     assert [(c.role.value, c.unit) for c in seen.columns] == [
@@ -272,6 +273,7 @@ def test_a_record_shows_its_sampling_excitation_trend_and_distortion(tmp_path):
     assert "(3 periods)" in text and text.count("drifts by 0.5 rad/s") == 1
 
 
+@pytest.mark.full
 def test_signals_that_are_chosen_by_their_names_are_assumed(tmp_path):
     seen = look(record(tmp_path / "a.csv", "t,torque,y_act"), input="torque", output="y_act")
     assert [(a.what, a.option) for a in seen.assumed] == [
@@ -352,6 +354,7 @@ def valid(plain):
     return [f"{error.json_path}: {error.message[:200]}" for error in errors] == []
 
 
+@pytest.mark.full
 def test_plain_data_are_what_the_schema_says(tmp_path):
     frf = write(tmp_path / "a.csv", "f [Hz],Re,Im", bode_rows())
     few = write(tmp_path / "b.csv", "f [Hz],Re,Im", [*bode_rows(4), (9.0, float("nan"), 1.0)])
@@ -400,6 +403,7 @@ def test_measured_files_are_shown(name, options):
         assert seen.is_impedance or seen.response == expected
 
 
+@pytest.mark.full
 def test_the_bench_is_understood_as_its_owner_describes_it():
     seen = look(measured_data("fditools_motorbench_B.mat"), input="iq_adx", output="theta_mx")
     found = seen.excitation

@@ -26,7 +26,7 @@ def record(tmp_path):
     return table(tmp_path / "a.csv", header, t, u, np.cumsum(u), r, np.cumsum(r))
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     "reference", ["excitation [Nm]", "excitation", "Excitation", " EXCITATION "]
 )
@@ -37,6 +37,7 @@ def test_signals_are_named_with_or_without_their_unit(record, reference, input):
     assert found.reference is not None and len(found.reference) == 4000
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("wrong", ["SPEED", "torque [A]", "reference"])
 def test_what_is_ambiguous_or_of_another_unit_is_refused(record, wrong):
     with pytest.raises(InputError, match="columns are called"):

@@ -14,6 +14,7 @@ PRINTED = 6e-9  # the derived files carry nine digits
 SIDES = [("theta_mx", 1, "ReG_mot"), ("theta_my", -1, "ReG_load")]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("experiment", "lines"), [("A", np.arange(11, 251)), ("B", None)])
 @pytest.mark.parametrize(("angle", "sign", "header"), SIDES)
 def test_the_records_give_the_published_responses(experiment, lines, angle, sign, header):
@@ -64,6 +65,7 @@ def test_an_object_that_cannot_be_read_does_not_hide_the_rest():
         read_time_series(path, "iq_adx", "theta")
 
 
+@pytest.mark.full
 def test_welch_agrees_with_the_periods_within_the_deviations():
     path = measured_data("fditools_motorbench_A.mat")
     series = read_time_series(path, "iq_adx", "theta_mx")

@@ -45,6 +45,7 @@ def test_equality_is_that_of_numbers_sensor_and_signals():
     assert all(response != other for other in others)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("changed", "words"),
     [

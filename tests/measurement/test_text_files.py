@@ -55,6 +55,7 @@ def test_dialects_of_three_columns(tmp_path, delimiter, decimal, head):
     assert np.array_equal(found.G, G) and found.quantity is Quantity.VELOCITY
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_encodings_and_line_ends(tmp_path, encoding, end):
@@ -179,6 +180,7 @@ def test_the_sensor_is_taken_from_words_or_said_to_be_assumed(tmp_path):
     assert found("mobility", quantity="position").quantity is Quantity.POSITION
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -228,6 +230,7 @@ def test_unsorted_lines_are_sorted_and_said(tmp_path):
     assert np.array_equal(found.G, G) and any("sorted" in note for note in found.notes)
 
 
+@pytest.mark.full
 def test_time_series_from_text(tmp_path):
     time = np.arange(400) * 1e-3
     rows = np.column_stack([time, np.sin(time), np.cos(time)])

@@ -115,6 +115,7 @@ def test_given_lines_band_and_period():
     assert one.deviation is None and one.coherence is None and "one period alone" in one.notes[-1]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("options", "words"),
     [

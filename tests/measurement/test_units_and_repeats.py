@@ -68,6 +68,7 @@ def test_what_is_no_unit_is_left_alone(tmp_path):
         assert (found.output.unit, found.input.unit) == ("", "") and np.array_equal(found.G, G)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("unit", [*MOTIONS, "cm/s", "mrad/s²", "rev/s", "mm/s2", "rpm/s"])
 @pytest.mark.parametrize("wanted", Quantity)
 def test_another_quantity_keeps_the_unit_whatever_it_is(unit, wanted):
@@ -194,6 +195,7 @@ def test_the_unit_of_a_column_of_frequencies(tmp_path):
     )
 
 
+@pytest.mark.full
 def test_repeats_have_a_mean_and_a_scatter(tmp_path):
     source = np.random.default_rng(0)
     several = G * (
@@ -221,7 +223,7 @@ def repeated(n, seed, lines=100):
     return 1.0 + 0.1 * noise * source.uniform(0.2, 3.0, size=lines)
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [2, 3, 5, 10])
 def test_repeats_of_one_noise_have_no_outliers(n):
     """Neither lines nor whole repeats, in 300 sets."""

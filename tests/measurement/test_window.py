@@ -61,6 +61,7 @@ def test_short_segments_show_the_response_under_their_window():
     assert plain.max() > 5
 
 
+@pytest.mark.full
 def test_the_window_goes_with_the_lines_and_their_quantity():
     data = measured(drive(2, 1, "random"), 1)
     few = data.masked(20.0, 90.0).to_quantity("position").sign_reversed().windowed()
@@ -72,6 +73,7 @@ def test_the_window_goes_with_the_lines_and_their_quantity():
     assert mean_of([data, data]).window is None
 
 
+@pytest.mark.full
 def test_derivatives_of_what_a_line_shows_are_those_of_differences():
     data = measured(drive(2, 1, "random"), 1)
     cost = Cost(data).windowed()
@@ -106,6 +108,7 @@ def test_a_weakly_excited_line_scatters_by_more():
         replace(data, drive=0 * data.drive)
 
 
+@pytest.mark.full
 def test_lines_that_stand_apart_are_not_smoothed():
     """A multisine in segments of its period; a controller's loop with a reference."""
     lines = np.arange(8, 200, 4)

@@ -167,6 +167,7 @@ VALID = (3, 1, 1, 2, 1, 3)
 # ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("indices", "equation", "text"),
     [
@@ -240,6 +241,7 @@ def test_nine_constraints():
 # -----------------------------------------------------------------------------------------
 
 
+@pytest.mark.full
 def test_a_chain_outside_38_is_a_model_with_another_number():
     outside, listed = Chain(3, 0, 0, 3, 0, 3, damped=True), Family(3, damped=True)[1]
     found = compare(outside, listed, query=Query(View.EXACT))

@@ -38,6 +38,7 @@ def test_a_spring_without_bound_and_a_mass_at_rest():
     assert is_minor(fixed.structure, Chain(4, 1, 1, 2, 1, 2).structure, {0: 0, 1: 2, 2: 1, 3: 0})
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("part", "whole", "places"),
     [

@@ -24,6 +24,7 @@ from disting.model.names import chain_of, name_of, read, read_together
 EXTRAS = [(), ("+b1",), ("+b3", "+b1"), ("+lag",), ("+delay", "+b2", "+lag")]
 
 
+@pytest.mark.full
 @given(
     n=st.integers(1, 5),
     at=st.integers(0, 72),
@@ -103,6 +104,7 @@ def test_what_is_near_to_nothing_is_only_refused(typed: str) -> None:
     assert "did you mean" not in str(refused.value) and len(str(refused.value)) < 300
 
 
+@pytest.mark.full
 def test_public_functions_take_names() -> None:
     family = Family(3, damped=True)
     by_chains = compare(family[1], family[4])
@@ -124,6 +126,7 @@ def test_public_functions_take_names() -> None:
     assert [listing.name for listing in to.listings] == ["2:2"]
 
 
+@pytest.mark.full
 def test_what_is_built_means_what_is_named():
     """Where nothing is said, a name, a chain, a family and every shipped table are damped."""
     assert read_together(["3:4"]) == [Family(3)[4]] == [Chain(3, 0, 0, 2, 0, 2)]

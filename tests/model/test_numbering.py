@@ -33,6 +33,7 @@ def test_counting_is_listing(n):
     assert list(map(before, every)) == list(range(len(every)))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [1, 2, 8, 9, 12])
 def test_the_family_of_a_size_numbers_these(n):
     family = Family(n, damped=True, quantity=Quantity.VELOCITY)
@@ -44,6 +45,7 @@ def test_the_family_of_a_size_numbers_these(n):
         assert (chain.damped, chain.quantity) == (True, Quantity.VELOCITY)
 
 
+@pytest.mark.full
 @given(st.integers(13, MOST_MASSES), st.randoms(use_true_random=False))
 def test_numbers_of_large_chains_are_in_order_and_read_back(n, random):
     places = sorted(random.sample(range(count(n)), 9))
@@ -65,7 +67,7 @@ def test_what_is_not_listed_has_no_number():
         Family(9)[994]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("pair", [("9:1", "9:2"), ("8:1", "9:1"), ("12:1+b12", "12:3851")])
 def test_sentences_of_large_chains_have_their_names(pair):
     sentence = compare(*pair, damped=False).sentence
@@ -75,7 +77,7 @@ def test_sentences_of_large_chains_have_their_names(pair):
     assert verify(data).status is Status.HOLDS
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("words", "said"),
     [
@@ -92,6 +94,7 @@ def test_commands_call_large_chains_by_their_names(words, said):
     assert "masses, gap" not in done.stdout + done.stderr
 
 
+@pytest.mark.full
 def test_one_number_of_two_machines_is_told_apart_by_damping_and_quantity():
     found = compare(Chain(9), Chain(9, damped=False, quantity=Quantity.VELOCITY)).sentence
     assert found.startswith("9:1 (damped, acceleration) and 9:1 (undamped, velocity) are dist")

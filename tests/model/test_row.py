@@ -68,6 +68,7 @@ def test_a_row_is_found_again_in_its_structure(row):
     assert row.canonical in (row, row.mirrored)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("chain", CHAINS, ids=str)
 def test_rows_hold_all_that_a_chain_consists_of(chain):
     rows = rows_of(chain.structure)

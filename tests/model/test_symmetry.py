@@ -49,6 +49,7 @@ def test_the_canonical_form_is_one_for_all_forms(chain):
     assert one.indices == min(form.chain.indices for form in forms(chain))
 
 
+@pytest.mark.full
 @quick
 @given(chains(max_masses=6, dead_time=True))
 def test_forms_keep_everything_but_ports_and_numbering(chain):

@@ -130,6 +130,7 @@ def test_masses_alone_have_a_response_in_positions():
     assert str(single) == "G(s) = 1/(m1*s**2)"
 
 
+@pytest.mark.full
 def test_improper_transfer_functions_are_compared_over_positive_parameters():
     found = compare("p(R1-L1,L2)", "L1-p(R1,L2)")
     assert found.relation.value == "indistinguishable"

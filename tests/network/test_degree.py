@@ -32,7 +32,7 @@ def signs(text, draw):
     return [orientation(model, e) for e in positive(goal_of(model, values), model, True) or ()]
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("text", "degree"), [(BRIDGE, 2), (ENDS, 1), *((text, 0) for text in SOME)]
 )
@@ -55,7 +55,7 @@ def test_a_bridge_whose_degree_is_not_0_gives_all(bridge):
     assert verify(verdict_file(bridge, CHAIN)).sentence == "holds"
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("text", SOME)
 def test_bridges_of_degree_0_do_not(text):
     """What they give and what they do not is shown by points."""

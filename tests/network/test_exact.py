@@ -100,6 +100,7 @@ def test_one_network_is_within_another_one_exactly_where_its_orders_are(orders):
     assert len(RC) == 34 and held > 100
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(("inner", "outer", "there", "back"), KNOWN)
 def test_both_ways(inner, outer, there, back):
     one, other = network_of(inner), network_of(outer)

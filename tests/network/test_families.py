@@ -195,7 +195,7 @@ def same_classes(listed, expected):
     )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("name", "kinds", "reactive", "most"),
     [

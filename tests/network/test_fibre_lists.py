@@ -94,7 +94,7 @@ def test_no_search_finds_what_lists_deny_and_all_around_it(pair):
     assert tried
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("pair", [*SOMETIMES, ALWAYS])
 def test_what_lists_find_is_found_around_it_too(pair):
     rng = np.random.default_rng(6)
@@ -120,7 +120,7 @@ def test_what_lists_find_is_found_around_it_too(pair):
     assert found
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("pair", SOMETIMES)
 def test_pairs_that_are_the_same_for_some_values(pair):
     left, right = models(pair)
@@ -169,6 +169,7 @@ def test_a_function_of_a_minor_has_equivalents_near_by():
     )
 
 
+@pytest.mark.full
 def test_a_lie_is_refused():
     left, right = models(SOMETIMES[3])
     evidence = admissible_finding(left, right, Domain.POSITIVE, "disting").evidence

@@ -63,6 +63,7 @@ def test_no_statement_can_be_changed(pair):
     assert not [path for path in changed if holds(put(data, path))]
 
 
+@pytest.mark.full
 def test_a_sensor_that_is_turned_is_seen():
     data = verdict_file(*SAME)
     assert data["evidence"] == {"kind": "theorem", "name": "replacement"}

@@ -106,7 +106,7 @@ SAME = [
 ]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("pair", "view"), list(product(SAME, [View.EXACT, View.REAL, View.POSITIVE]))
 )

@@ -102,6 +102,7 @@ def renumbered(network: Network, seed: int) -> Network:
     return Network(tuple(elements), tuple(ports[:size]), tuple(ports[size:]), network.order)
 
 
+@pytest.mark.full
 def test_pairs_are_the_same_if_and_only_if_a_numbering_makes_them_equal() -> None:
     answers = Counter[bool]()
     for left, right in combinations_with_replacement(NETWORKS, 2):
@@ -111,6 +112,7 @@ def test_pairs_are_the_same_if_and_only_if_a_numbering_makes_them_equal() -> Non
     assert answers[True] > len(NETWORKS) and answers[False] > len(NETWORKS)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("at", range(len(NETWORKS)))
 def test_another_numbering_is_the_same_network(at: int) -> None:
     network = NETWORKS[at]
@@ -120,6 +122,7 @@ def test_another_numbering_is_the_same_network(at: int) -> None:
         assert not is_same_network(network, replace(network, order=network.order - 1))
 
 
+@pytest.mark.full
 def test_large_and_symmetric_networks_are_soon_compared() -> None:
     ladder = "-".join(f"p(R{i},C{i})" for i in range(1, 39))
     star = f"p({','.join(f'R{i}-C{i}' for i in range(1, 36))})"
@@ -147,6 +150,7 @@ def rook(swapped: bool) -> Network:
     return Network((*masses, *springs), (Port(1),), (Port(1),), 2)
 
 
+@pytest.mark.full
 def test_regular_graphs_that_colours_alone_do_not_tell_apart() -> None:
     one, other = rook(False), rook(True)
     assert len(one.elements) == len(other.elements) == 64
@@ -158,6 +162,7 @@ CHAIN = Chain(3, meas_plus=2, damped=True)
 CELL = network_of("R0-p(R1,C1)")
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("name", "model", "naming"),
     [

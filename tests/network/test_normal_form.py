@@ -46,7 +46,7 @@ TURNED = [
 ]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right"), SAME)
 def test_parts_that_replace_each_other(left, right):
     assert has_one_form(network_of(left), network_of(right))
@@ -62,7 +62,7 @@ def test_parts_that_do_not(left, right):
     assert not has_one_form(network_of(left), network_of(right))
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right"), TURNED)
 def test_a_sensor_that_is_turned_changes_the_sign(left, right):
     """Positive values give a positive and a negative leading coefficient; complex ones agree."""

@@ -78,6 +78,7 @@ def test_constant_phase_elements_of_other_programs_are_ours():
     assert (phase.value, phase.exponent) == ("P_f3", "n_f3")
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("word", UNSUPPORTED)
 @pytest.mark.parametrize("text", ["R0-p(R1,{}1)", "R0(R1{})", "R0 + parallel(R1, {}_f1)"])
 def test_elements_that_are_known_are_refused_by_name_with_the_reason(text, word):

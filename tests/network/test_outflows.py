@@ -31,7 +31,7 @@ OTHER = [
 ]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right"), ALL)
 def test_networks_that_are_the_same(left, right):
     found = compare(left, right)
@@ -39,7 +39,7 @@ def test_networks_that_are_the_same(left, right):
     assert found.certainty == ("theorem" if found.has_exceptions else "proven")
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right"), OTHER)
 def test_networks_that_are_not(left, right):
     found = compare(left, right)
@@ -78,6 +78,7 @@ def drawn(draw):
             return n, flows, leaks, enter, leave
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("way", ["there", "back"])
 def test_values_of_the_other_outflows_by_the_matrices_of_the_proof(way):
     draw, moved = random.Random(way), 0

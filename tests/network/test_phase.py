@@ -200,6 +200,7 @@ def test_as_many_parameters_are_determined_as_spectra_show(text):
     assert identifiability(network).rank == np.sum(sizes > 1e-9 * sizes[0])
 
 
+@pytest.mark.full
 def test_levels_of_exponents():
     one = identifiability("R0-p(R1,P1)")
     assert one.sentence == "4 parameters, all globally identifiable."
@@ -278,6 +279,7 @@ def test_equivalents_do_not_mix_powers_of_s_and_of_its_root():
     assert (there["R1"], there["C1"]) == (2, 3)
 
 
+@pytest.mark.full
 def test_verdicts_are_checked_from_their_files():
     for left, right in (
         ("R0-p(P1,R1-P2)", "R0-p(P2,R1-P1)"),

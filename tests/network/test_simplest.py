@@ -96,6 +96,7 @@ def test_the_simplest_network_gives_the_same(name):
             assert twin(given, other, draw)[1] is not None, (given.name, other.name)
 
 
+@pytest.mark.full
 def test_numbers_of_nodes_do_not_matter():
     draw = random.Random(4)
     for network in draw.sample(family_of("machines-3").networks, 20):
@@ -106,7 +107,7 @@ def test_numbers_of_nodes_do_not_matter():
         assert simplest(network_of(text)) == simplest(network), text
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("name", [*FAMILIES, "machines-3", "circuits-5", "cells-4"])
 def test_damaged_networks_have_one_with_the_same_coefficients(name):
     """With elements too many, hanging, elsewhere, gears, ports turned: no error, no other order."""

@@ -70,6 +70,7 @@ def truth(force, sensor, omega):
     return np.array(found)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("force", "sensor"),
     [(f, s) for f in PLACES for s in PLACES if {f, s} not in ({"Motor.Pinion", "Drive.Wheel"},
@@ -113,6 +114,7 @@ def changed(path, value):
 FIRST = ("components", 0, "elements")
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("data", "said"),
     [

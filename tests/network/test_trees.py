@@ -40,6 +40,7 @@ def test_random_graphs(edges, kept, seed) -> None:
     assert {k: v for k, v in found.items() if v} == tried(weights, frozenset(kept))
 
 
+@pytest.mark.full
 def test_a_tangle_is_not_counted() -> None:
     tangle = {frozenset(edge): 1 for edge in combinations(range(14), 2)}
     assert forests(tangle, [0]) is None

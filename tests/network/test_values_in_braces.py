@@ -61,6 +61,7 @@ def test_braces_of_another_form_are_refused_where_values_are_needed(text, words)
     assert network_of(text).parameters  # the structure needs none of them
 
 
+@pytest.mark.full
 def test_simulate_takes_them_and_set_wins():
     low = ("--low", "1", "--high", "100", "--samples", "200", "--sampling-rate", "500")
     own = called("simulate", RANDLES, *low)

@@ -15,6 +15,7 @@ def said(command: str, status: int = 0) -> str:
     return done.stdout
 
 
+@pytest.mark.full
 def test_a_circuit_has_an_impedance_and_no_nodes_or_machines():
     told = said("compare 'R0-p(R1,C1)-W1' 'R0-p(R1,C1)'")
     assert "Z(s) = " in told and "with a direct connection in place of W1" in told
@@ -42,6 +43,7 @@ def test_names_with_commas_are_parted_by_bars():
     assert "R1-p(R2,L1) | p(R1,R2-L1) | " in said("verdicts circuits-4")
 
 
+@pytest.mark.full
 def test_of_infinitely_many_values_some_are_told_as_such():
     told = said("equivalents 'R0-p(R1,C1)' --to 'R0-p(R1,C1)-R2' --set R0=1,R1=2,C1=1/2")
     assert told.endswith("and infinitely many more\n")
@@ -59,6 +61,7 @@ def test_values_of_circuits_have_units(tmp_path, network, is_circuit):
     assert (" ohm " in told, " F " in told) == (is_circuit, is_circuit)
 
 
+@pytest.mark.full
 def test_an_undecided_pair_of_one_group_is_told_as_the_same():
     lines = said("verdicts machines-2").splitlines()
     groups = [

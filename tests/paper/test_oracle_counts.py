@@ -105,7 +105,7 @@ def test_three_mass_coefficients_and_ranks() -> None:
     assert damped[2].rank == damped[6].rank == 6
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_lag_is_distinguishable_from_none(damped: bool) -> None:
     for plain in Family(3, damped):
@@ -145,6 +145,7 @@ def test_markov_parameters_are_the_series_of_the_transfer_function(chain: Chain)
         assert below == padded[len(a) - i]
 
 
+@pytest.mark.full
 def test_different_random_points_give_the_same_ranks_and_bases() -> None:
     for chain in list(Family(3, damped=True))[::3]:
         first, second = (sympy_twin.summary(chain, "tf", seed=seed) for seed in (1, 2))

@@ -246,6 +246,7 @@ def test_a_larger_structure_contains_the_smaller_one_as_the_verdict_tells():
     assert next(plan_in_words(found, None, "given")).startswith("impossible: 3:1 contains 2:1")
 
 
+@pytest.mark.full
 def test_few_starts_that_agree_make_the_answer_doubtful(planned):
     rival = planned.rival
     j = rival.noncentrality
@@ -272,6 +273,7 @@ def test_bad_input_is_named(change, words):
         change()
 
 
+@pytest.mark.full
 def test_data_at_other_lines_are_refused(planned):
     with pytest.raises(InputError, match="planned lines"):
         gain(planned.rival, FrequencyResponse(OMEGA * 1.1, predict(MODEL, VALUES, OMEGA)))

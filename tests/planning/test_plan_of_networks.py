@@ -156,6 +156,7 @@ def test_an_undamped_machine_is_found_back():
     assert found.rival.recovered and found.answer is Answer.ENOUGH
 
 
+@pytest.mark.full
 def test_a_sensor_that_shows_nothing_is_named():
     models = [network_of(f"1=#, 2=#{more}; F1 F2; S1 S2") for more in ("", ", 1=2")]
     values = dict.fromkeys(models[0].parameters, 1.0)

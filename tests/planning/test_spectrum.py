@@ -73,6 +73,7 @@ def test_optimal_spectrum_meets_its_bound_and_beats_equal_lines(adversary, best)
     )
 
 
+@pytest.mark.full
 def test_equivalence_theorem_no_line_sees_more_than_the_optimum(adversary, best):
     """Atkinson and Fedorov 1975: psi_k <= lambda on all lines, = on those of the spectrum, for some
     mixture of the rival's best fits."""
@@ -106,6 +107,7 @@ def test_best_band_is_no_worse_than_any_band_and_no_better_than_the_optimum(adve
     assert adversary.rival.noncentrality <= band.noncentrality <= best.bound
 
 
+@pytest.mark.full
 def test_spectrum_to_be_run_has_all_lines_and_loses_a_tenth_at_most(adversary, best):
     run = runnable(adversary, best)
     assert run.lines == len(OMEGA) and run.shares.sum() == pytest.approx(1.0)

@@ -144,6 +144,7 @@ def test_below_and_above_the_diagonal_are_two_views(visit) -> None:  # type: ign
     assert tab.inner_text("#detail .badge") == "undecided"
 
 
+@pytest.mark.full
 def test_the_drawing_shows_the_relations(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL)
     shipped = catalog(3, damped=True)

@@ -59,6 +59,7 @@ def test_classes_whose_buckets_disagree_are_refused(found: DamperFamily) -> None
         number_classes(replace(found.found, columns=columns))
 
 
+@pytest.mark.full
 def test_no_pair_is_sent(found: DamperFamily, text: str) -> None:
     assert len(payload(found)) < 4000
     assert len(text.encode()) < 160_000

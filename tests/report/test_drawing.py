@@ -72,6 +72,7 @@ def test_nothing_leaves_the_picture_and_no_letters_overlap():
                     assert apart, (chain, item, texts)
 
 
+@pytest.mark.full
 def test_every_experiment_is_drawn_differently_and_said():
     for chain in CHAINS:
         found = [sketch(1, chain, (item,)) for item in items(chain)]
@@ -83,6 +84,7 @@ def test_every_experiment_is_drawn_differently_and_said():
             assert one.parts[1] == f"more-{draw_item(chain, item).name}"
 
 
+@pytest.mark.full
 def test_parts_of_one_name_are_the_same_for_all_chains_of_a_size():
     for n in range(1, 5):
         parts = {}
@@ -133,6 +135,7 @@ def test_what_a_page_shows_it_holds_once():
         assert any(name.startswith("rest-") for name in shown)
 
 
+@pytest.mark.full
 def test_every_experiment_that_is_worth_it_is_drawn_with_a_text_alternative():
     told = advice(found_for(DAMPED), 2)
     text = model_page(DAMPED, 2)

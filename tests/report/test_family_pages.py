@@ -79,7 +79,7 @@ def test_no_page_is_endless(visit) -> None:  # type: ignore[no-untyped-def]
             assert tab.evaluate("document.documentElement.scrollHeight") < 12_000
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_drawing_is_saved_as_it_is_on_white_paper(visit, tmp_path: Path, scheme: str) -> None:  # type: ignore[no-untyped-def]
     tab = visit(f"models/list-circuits-4/{PAIR[0]}.html", scheme=scheme)

@@ -47,6 +47,7 @@ def test_every_header_is_shown_as_it_is_written() -> None:
     assert [*written, PLAN, ",".join(SPECTRUM), response()] == SHOWN
 
 
+@pytest.mark.full
 def test_no_other_module_writes_a_table() -> None:
     """Who adds one finds this test, and the page that says what is in it."""
     root = Path(disting.__file__).parent

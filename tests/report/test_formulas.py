@@ -173,6 +173,7 @@ def test_a_map_is_typeset_as_its_formulas() -> None:
     assert sympy.simplify(read(("<math>" + right,)) - m1 * (m1 + m2) / m2) == 0
 
 
+@pytest.mark.full
 def test_long_maps_are_left_to_the_command_line() -> None:
     undamped = catalog(4, damped=False)
     a, b = undamped.classes()[0][:2]

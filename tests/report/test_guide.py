@@ -311,6 +311,7 @@ WORDS = {
 """Words that people search for, and a page that has the answer."""
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("word", "page"), WORDS.items())
 def test_the_search_knows_the_words_of_engineers(word: str, page: str) -> None:
     data = json.loads(re.search(r"const DATA = (.*);\n", search_script(parts(), {}))[1])  # type: ignore[index]

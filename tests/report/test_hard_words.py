@@ -77,6 +77,7 @@ def test_pages_of_the_guide_link_the_first_use() -> None:
     assert sum(one.body.count('class="term"') for one in own) > 40
 
 
+@pytest.mark.full
 def test_pages_of_catalogues_and_the_start_page() -> None:
     found = catalog(3, damped=True)
     texts = (index([found]), page(found), model_page(found, 3), model_page(found, 1))

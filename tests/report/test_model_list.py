@@ -97,6 +97,7 @@ def test_what_is_judged_is_what_compare_says(vessels) -> None:  # type: ignore[n
     assert vessels.depending(View.POSITIVE) == ((1, 2), (1, 3), (2, 3))
 
 
+@pytest.mark.full
 def test_the_pages_say_it_without_a_script(vessels) -> None:  # type: ignore[no-untyped-def]
     shown = Listing(vessels, "Two vessels", NAME)
     page = model_list_page(shown)
@@ -119,6 +120,7 @@ def test_the_pages_say_it_without_a_script(vessels) -> None:  # type: ignore[no-
     assert set(found["views"]) == {"positive", "exact"} and not found["numbered"]
 
 
+@pytest.mark.full
 def test_links_lead_to_pages_that_are_there(vessels, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
     shown = Listing(vessels, "Two vessels", NAME)
     first = write_model_list(shown, tmp_path)[0].read_text("utf-8")
@@ -130,6 +132,7 @@ def test_links_lead_to_pages_that_are_there(vessels, tmp_path: Path) -> None:  #
     assert [p.name for p in again] == [*files, *(f"{n}.html" for n in range(1, 6))]
 
 
+@pytest.mark.full
 def test_the_table_of_models_says_what_the_pages_say(vessels, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
     path = write_model_list(Listing(vessels, "Two vessels", NAME), tmp_path)[3]
     head, *rows = path.read_text("utf-8").splitlines()
@@ -138,6 +141,7 @@ def test_the_table_of_models_says_what_the_pages_say(vessels, tmp_path: Path) ->
     assert [row.split(",")[-2:] for row in rows[3:]] == [["1", "2"], ["1", "2"]]
 
 
+@pytest.mark.full
 def test_names_are_text_in_the_page(site: Path) -> None:
     tame, page = (Outline((site / f"{n}.html").read_text("utf-8")) for n in (NAME, "list-hostile"))
     assert {tag for tag, _ in page.elements} <= {tag for tag, _ in tame.elements}
@@ -146,6 +150,7 @@ def test_names_are_text_in_the_page(site: Path) -> None:
     assert data((site / "list-hostile.html").read_text("utf-8"))["names"] == HOSTILE
 
 
+@pytest.mark.full
 def test_large_models_are_told_by_their_degrees() -> None:
     long = Model.from_transfer_function("1", "*".join(f"(s + a{i} + b{i})" for i in range(8)))
     assert written_model(long).lines == () and "b_{0}" in written_model(long).latex
@@ -302,6 +307,7 @@ def test_a_family_of_ones_own_has_the_same_pages(own: list[Path]) -> None:
         assert model.count("svg", role="img") >= 1 and "Transfer function" in model.text
 
 
+@pytest.mark.full
 def test_values_on_a_page_are_equivalents(tmp_path: Path) -> None:
     """Put into the other circuit by hand: R0' = R0 + R1 for p(R0,R1-C1) from R0-p(R1,C1)."""
     folder = write_family(["R0-p(R1,C1)", "p(R0,R1-C1)"], "Cells", tmp_path)[0].parent
@@ -309,10 +315,11 @@ def test_values_on_a_page_are_equivalents(tmp_path: Path) -> None:
     r0 = "<msubsup><mi>R</mi><mn>0</mn><mo>\u2032</mo></msubsup><mo>=</mo>"
     plus = "<msub><mi>R</mi><mn>0</mn></msub><mo>+</mo><msub><mi>R</mi><mn>1</mn></msub>"
     assert f"<math>{r0}{plus}</math>" in page
-    assert "no measurement at this port tells it from" in page and "Impedance" in page
+    assert "no measurement at this port distinguishes it from" in page and "Impedance" in page
     assert "equivalents &#34;R0-p(R1,C1)&#34; --to &#34;p(R0,R1-C1)&#34; --set C1=..,R0=" in page
 
 
+@pytest.mark.full
 def test_networks_of_several_ports_have_pages(tmp_path: Path) -> None:
     texts = ["1~2; F1; S1 S2", "1~2, 2~#; F1; S1 S2"]
     folder = write_family(texts, "Two encoders", tmp_path)[0].parent
@@ -340,6 +347,7 @@ def test_what_is_no_family_is_refused(
     assert not (tmp_path / "none").exists()
 
 
+@pytest.mark.full
 def test_what_lies_beside_and_is_no_list_is_passed_over(tmp_path: Path) -> None:
     """Damaged or foreign files of such names."""
     write_family(["R0-p(R1,C1)", "p(R0,R1-C1)"], "Two & more", tmp_path)
@@ -358,12 +366,13 @@ def test_what_lies_beside_and_is_no_list_is_passed_over(tmp_path: Path) -> None:
     assert models["list-broken.html"] == []
 
 
+@pytest.mark.full
 def test_a_page_says_which_part_of_a_model_another_one_reaches(tmp_path):
     """a12 > a20, and both ways; on the panel in words."""
     texts = ["1>0, 1>2, 2>0; in 1; out 2", "1>0, 1>2, 2>1; in 2; out 1"]
     matrix, *_ = write_family(texts, "Two ways out", tmp_path)
     page = (tmp_path / "models/list-two-ways-out/1.html").read_text("utf-8")
-    assert "Of A1, exactly the part with a positive equivalent A2, special values aside:" in page
+    assert "Of A1, exactly this part has a positive equivalent A2, special values aside:" in page
     assert "Every A2 with positive parameters has a positive equivalent A1." in page
     plain = re.sub(r"<[^>]+>", "", page)
     assert "a12&gt;a20" in plain

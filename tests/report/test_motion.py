@@ -371,7 +371,7 @@ def test_twins_follow_by_formulas(visit) -> None:  # type: ignore[no-untyped-def
 @pytest.mark.full
 def test_the_mark_stands_where_the_curves_part_most(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(SMALL + "#A1-A4")
-    wait_for(tab, "#how", "Best found in this page")
+    wait_for(tab, "#how", "Best values found")
     words = re.search(r"up to ([\d.]+) dB at ([\d.]+) Hz", tab.inner_text("#how"))
     found = tab.evaluate(
         IMITATED,
@@ -394,9 +394,9 @@ def test_the_mark_stands_where_the_curves_part_most(visit) -> None:  # type: ign
 @pytest.mark.full
 def test_values_that_are_not_positive_are_said_at_once(visit) -> None:  # type: ignore[no-untyped-def]
     tab = visit(LARGER + "#A2-A6")
-    wait_for(tab, "#how", "do the same to within rounding")
+    wait_for(tab, "#how", "give the same response up to rounding")
     tab.click("#swap")
-    assert "do the same to within rounding" in tab.inner_text("#how")
+    assert "give the same response up to rounding" in tab.inner_text("#how")
     assert tab.locator("#values tr.fails").count() == 0
     for place in np.linspace(0, -1, 18):
         tab.locator('#values input[aria-label="m1 of A6"]').fill(f"{place:.3f}")
@@ -507,5 +507,6 @@ def test_less_motion_is_respected(visit) -> None:  # type: ignore[no-untyped-def
     tab.wait_for_function("() => +document.getElementById('time').value > 0")
 
 
+@pytest.mark.full
 def test_the_pages_stay_small(site: Path) -> None:
     assert (site / SMALL).stat().st_size < 120_000

@@ -192,6 +192,7 @@ def test_a_chain_is_drawn_as_a_chain_and_a_formula_not_at_all() -> None:
     assert scene_of(Model.from_transfer_function(["k"], ["T", "1"])) is None
 
 
+@pytest.mark.full
 def test_the_command_writes_pictures_and_says_what_it_cannot(tmp_path: File) -> None:
     done = called("draw", "1=2=3, 2=4; F1; S4", "--svg", tmp_path / "a.svg", "--png", tmp_path / "a.png")  # fmt: skip
     assert done.returncode == 0 and done.stdout.startswith("4 masses: k12 between 1 and 2")

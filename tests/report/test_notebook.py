@@ -207,6 +207,7 @@ def test_bode_diagrams_lie_on_new_axes_or_on_given_ones():
         DATA.plot(mpl.figure.Figure().subplots(3, 1))
 
 
+@pytest.mark.full
 def test_a_selection_is_drawn_as_data_and_the_structures_not_excluded(found):
     amplitude, phase = found.plot()
     dots, line = amplitude.get_lines()
@@ -219,6 +220,7 @@ def test_a_selection_is_drawn_as_data_and_the_structures_not_excluded(found):
     assert abs(beside[0] - beside[1]) < 5
 
 
+@pytest.mark.full
 def test_a_matrix_has_a_field_a_pair_in_the_place_of_its_models():
     axes = catalog(4, damped=False).plot()
     fields = axes.get_images()[0].get_array()

@@ -98,6 +98,7 @@ def test_signs_of_markdown_are_text_in_docstrings(text: str) -> None:
     assert {tag for tag, _ in shown.elements} <= {"p", "code"}
 
 
+@pytest.mark.full
 def test_every_command_and_option_is_there() -> None:
     found = {command.words: command for command in commands(parser())}
     assert {"disting compare", "disting catalog verify", "disting cache info"} <= set(found)

@@ -78,11 +78,13 @@ def _across(found: SizesCatalog) -> list[tuple[int, int]]:
     return [(i, j) for i, j in combinations(numbers, 2) if found.size(i) != found.size(j)]
 
 
+@pytest.mark.full
 def test_counts_are_those_of_the_pairs(found: SizesCatalog) -> None:
     rows = {(b.small, b.large): (b.inside, b.outside, b.unknown) for b in between(found)}
     assert rows == {(1, 2): (3, 0, 0), (1, 3): (11, 0, 0), (2, 3): (31, 2, 0)}
 
 
+@pytest.mark.full
 def test_every_pair_has_its_limit_in_words(found: SizesCatalog) -> None:
     told = limits(found)
     entries, of = told["entries"], _unpacked(told["of"])  # type: ignore[arg-type]
@@ -100,6 +102,7 @@ def test_every_pair_has_its_limit_in_words(found: SizesCatalog) -> None:
                 assert ("Neither is a limit" in said) == (kind == NO_LIMIT) and why
 
 
+@pytest.mark.full
 def test_the_page_says_it_in_words(found: SizesCatalog) -> None:
     text = sizes_page(found)
     assert "Chains of 1 to 3 masses, undamped" in text
@@ -112,12 +115,13 @@ def test_the_page_says_it_in_words(found: SizesCatalog) -> None:
     assert outside == [("2:1", "3:3"), ("2:3", "3:3")]
     for left, right in outside:
         assert f'<a class="pairlink" href="#{left}-{right}">{left} in {right}</a>' in text
-    assert "not known, in the others" not in text and 'id="open"' not in text
+    assert "unknown; in the others" not in text and 'id="open"' not in text
 
 
+@pytest.mark.full
 def test_what_is_not_known_is_said(opened: SizesCatalog) -> None:
     text = sizes_page(opened)
-    assert "in <strong>1</strong> that is\nnot known" in text
+    assert "for <strong>1</strong> this is\nunknown" in text
     assert "No (limit) is known." in text and 'id="open"' in text
     assert [b.unknown for b in between(opened)] == [0, 0, 1]
     assert NOT_KNOWN in {kind for kind, *_ in limits(opened)["entries"]}  # type: ignore[attr-defined]

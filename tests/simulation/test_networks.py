@@ -58,6 +58,7 @@ def expanded(network, values, omega):
     return top / bottom
 
 
+@pytest.mark.full
 def test_all_sensors_of_an_experiment():
     """Each response is that of the network between both; one recorded input for all sensors."""
     network = network_of("1=2=3, 2=4; F1 F3; S4 S3:2", quantity="position")

@@ -317,6 +317,7 @@ def test_a_held_input_makes_the_errors_that_the_guide_tells():
     assert 100 * antiresonance.max() == pytest.approx(17, abs=1)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     ("call", "words"),
     [

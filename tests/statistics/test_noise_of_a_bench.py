@@ -104,6 +104,7 @@ def test_whitened_residuals_of_every_kind_are_standard_normal(kind, repeats):
     _standard_normal([drive(2, seed, kind) for seed in range(12)], repeats)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("seeds", [range(1), pytest.param(range(8), marks=pytest.mark.slow)])
 def test_whitened_residuals_of_short_segments_are_standard_normal(seeds):
     """Segments of 1 s are too short for resonances of 0.3 % damping: what they miss counts."""

@@ -138,6 +138,7 @@ REFUSED += [
 ]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("text", REFUSED)
 def test_the_variable_is_refused_where_it_names_no_file(
     text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -75,6 +75,7 @@ def test_a_write_waits_for_another_process(filled: Path) -> None:
     assert found == [True]
 
 
+@pytest.mark.full
 def test_a_file_locked_for_too_long_is_left_alone(filled: Path) -> None:
     worker = start("hold", filled)
     assert first_line(worker) == "held\n"

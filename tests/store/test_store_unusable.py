@@ -104,6 +104,7 @@ def test_a_folder_without_permission_is_done_without(public: Path) -> None:
     assert list(public.iterdir()) == []
 
 
+@pytest.mark.full
 def test_a_file_without_permission_to_write_is_left_as_it_is(public: Path) -> None:
     path = public / "cache.sqlite3"
     with Store.open(path) as store:
@@ -124,6 +125,7 @@ def test_a_full_disk_is_done_without(size: int, path: Path) -> None:
         assert works(store)
 
 
+@pytest.mark.full
 def test_a_full_disk_costs_nothing_that_was_there(filled: Path) -> None:
     assert finish(start("limited", filled, 60_000)) == ["found 0", "warnings 1"]
     with cache_warnings(0), Store.open(filled) as store:

@@ -43,6 +43,7 @@ def test_a_printed_verdict_is_its_sentence():
     )
 
 
+@pytest.mark.full
 def test_matrices_are_compared_as_the_models_that_they_make():
     found = compare(LEAKS, EXCHANGE, domain="complex")
     models = [Model.from_state_space(*m, name=n) for m, n in ((LEAKS, "a"), (EXCHANGE, "b"))]

@@ -34,6 +34,7 @@ def test_structural_rules_are_told_from_both_sides_and_hold(damped):
     assert told == {"8", "9"}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("outcome", [Outcome.HOLDS, Outcome.FAILS])
 def test_an_answer_that_may_be_wrong_too_often_is_none(outcome):
     """Over millions of pairs an error of 2^-60 is too likely to be taken over."""

@@ -65,6 +65,7 @@ def test_as_the_decision_pair_by_pair_says(three):
     assert len(rules) < 40
 
 
+@pytest.mark.full
 def test_counts_are_those_of_the_pairs(three):
     relations, rules = {}, {}
     for _, _, relation, rule in three.found.pairs():
@@ -74,6 +75,7 @@ def test_counts_are_those_of_the_pairs(three):
     assert {r: n for r, n in three.found.counts_by_rule().items() if n} == rules
 
 
+@pytest.mark.full
 def test_relations_are_symmetric_and_transitive(three):
     found = three.found
     for members in found.classes():
@@ -81,7 +83,7 @@ def test_relations_are_symmetric_and_transitive(three):
             assert found.relation(i, j) is found.relation(j, i) is SAME
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("number", [1, 6, 7, 11])
 def test_as_the_table_of_one_model_says(three, number):
     table = dampers(three.family[number], DamperSets.ALL, engine=ENGINE, domain=Domain.COMPLEX)
@@ -177,6 +179,7 @@ def answered(chains, outcomes):
     return engine
 
 
+@pytest.mark.full
 def test_what_is_given_up_stays_undecided():
     """Pairs that only the synthesis decides are open where it gives up, and none is decided
     otherwise.
@@ -189,6 +192,7 @@ def test_what_is_given_up_stays_undecided():
         assert relation in (OPEN, whole.relation(i, j))
 
 
+@pytest.mark.full
 def test_answers_that_contradict_each_other_are_no_result():
     """Equality is transitive: two pairs that hold and a third that fails."""
     ports = ((1, 1, 2, 1, 2), (2, 1, 3, 1, 3), (2, 2, 3, 2, 3))
@@ -198,6 +202,7 @@ def test_answers_that_contradict_each_other_are_no_result():
         classes(chains, answered(chains, answers))
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("number", range(1, 12))
 def test_ranks_of_the_inverse_never_separate_what_is_indistinguishable(number):
     """Members of one class of the shipped catalogue have equal profiles of 1/G."""
@@ -208,6 +213,7 @@ def test_ranks_of_the_inverse_never_separate_what_is_indistinguishable(number):
             assert len({(p.form, p.rank, p.matroid) for p in seen}) == 1
 
 
+@pytest.mark.full
 def test_the_rank_of_the_inverse_is_the_number_of_determinable_parameters():
     for chain, row in zip(Family(3, damped=True), catalog(3, damped=True).rows, strict=True):
         assert quick_profile(chain, Settings()).rank == row.rank

@@ -177,7 +177,7 @@ def test_evidence_of_models_is_that_which_is_read(view, name, files):
     refuse_differences(decide(*pair, Query(view)) for pair in combinations(subjects, 2))
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.POSITIVE, View.REAL, View.EXACT])
 def test_evidence_under_experiments_is_that_which_is_read(view):
     experiments = [Experiment(), Experiment(sensor=2), Experiment(locked=1)]
@@ -228,7 +228,7 @@ findings = st.builds(PositiveFinding, st.just(Share.UNKNOWN), reason=st.text()) 
 )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.kind)
 @settings(max_examples=15, phases=[Phase.generate])
 @given(st.data())

@@ -19,7 +19,7 @@ def decided(chains, view=View.EXACT):
     return engine.decisions(subjects, Query(view))
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("view", [View.EXACT, View.POSITIVE])
 @pytest.mark.parametrize("damped", [False, True])
 def test_a_family_lies_between_its_worst_pair_and_the_sum_of_all(damped, view):
@@ -39,6 +39,7 @@ def test_a_family_lies_between_its_worst_pair_and_the_sum_of_all(damped, view):
     assert json.loads(decisions_json(found))["joint_error_bound"] == f"2^-{safety}"
 
 
+@pytest.mark.full
 def test_a_profile_counts_once_for_all_its_pairs():
     """Model 1 against many others by the same profile: its error is one event, not as many as
     there are pairs.

@@ -103,7 +103,7 @@ def believed(data: dict[str, Any]) -> bool:
         return False
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("case", CASES)
 def test_no_model_is_called_by_the_notation_of_another_one(case: str) -> None:
     data = stored(case)
@@ -114,6 +114,7 @@ def test_no_model_is_called_by_the_notation_of_another_one(case: str) -> None:
             assert not believed(renamed(data, {name: other})), (name, other)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("case", ["circuits", "machines", "compartments", "state space"])
 def test_the_refusal_is_one_sentence(case: str) -> None:
     data = stored(case)
@@ -146,7 +147,7 @@ def test_another_notation_of_the_same_network_is_harmless(case: str) -> None:
             assert verify(renamed(data, {name: other})).status is Status.HOLDS, other
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("case", ["chains", "circuits", "machines", "state space"])
 def test_free_names_are_harmless_as_the_answer_says_that_they_are_free(case: str) -> None:
     data = stored(case)
@@ -191,6 +192,7 @@ def test_no_text_can_be_replaced_by_another_one_of_any_file(case: str) -> None:
     test_no_text_can_be_replaced_by_another_one_of_the_file(case)
 
 
+@pytest.mark.full
 def test_a_file_for_every_place_is_looked_at_likewise() -> None:
     data = json.loads(json.dumps(everywhere_file(A[1], A[4], ["sensor=3"], engine=ENGINE)))
     assert verify(data).status is Status.HOLDS
@@ -233,6 +235,7 @@ def test_files_of_models_are_refused_likewise(name: str, tmp_path: Path) -> None
         assert str(error.value).startswith(f"{path}: {text!r} does not denote"), text
 
 
+@pytest.mark.full
 def test_commands_on_files_of_models_say_that_names_are_free(tmp_path: Path) -> None:
     path = tmp_path / "f.json"
     entries = [{"name": "pump", "circuit": "R1-C1"}, {"name": "p(R1,C1)", "circuit": "p(R1,C1)"}]

@@ -38,6 +38,7 @@ def test_a_file_of_0_3_0_holds(file: dict[str, Any]) -> None:
 BY_THEOREM = [file for file in FILES if file["evidence"].get("kind") == "theorem"]
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("name", THEOREMS)
 @pytest.mark.parametrize("file", BY_THEOREM, ids=lambda file: f"{file['left']} and {file['right']}")
 def test_a_theorem_that_does_not_apply_is_no_evidence(file: dict[str, Any], name: str) -> None:

@@ -152,6 +152,7 @@ def test_a_bare_transfer_function_is_never_told_more(family):
             assert bare.has_exceptions or not known.has_exceptions, (left.name, right.name)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_a_chain_is_told_as_much_as_its_transfer_function(n):
     random = Random(n)
@@ -163,6 +164,7 @@ def test_a_chain_is_told_as_much_as_its_transfer_function(n):
             assert bare.has_exceptions or not known.has_exceptions, (left, right)
 
 
+@pytest.mark.full
 def test_compartments_that_leak_elsewhere_have_one_strength():
     """By text a theorem says so, special values aside; the map has no exception."""
     texts = "1<>2, 1>0; in 1; out 1", "1<>2, 2>0; in 1; out 1"

@@ -1,5 +1,6 @@
 """Explicit maps name the parameters of the searched model with primes, and older files still hold."""
 
+import pytest
 import sympy as sp
 
 from disting import compare
@@ -27,6 +28,7 @@ def test_a_map_distinguishes_the_parameters_of_both_models():
     assert " k12 = " not in sentence
 
 
+@pytest.mark.full
 def test_a_map_is_true_with_its_primes():
     """By SymPy alone: the transfer functions are the same at the values that the sentence names."""
     s = sp.symbols("s")
@@ -38,6 +40,7 @@ def test_a_map_is_true_with_its_primes():
     assert sp.simplify((first - second.subs(at, simultaneous=True))[0]) == 0
 
 
+@pytest.mark.full
 def test_a_file_of_the_format_without_primes_still_holds():
     data = verdict_file(*compartments())
     assert verify(data).status is Status.HOLDS

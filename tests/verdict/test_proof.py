@@ -65,7 +65,7 @@ def test_rank_of_nothing_and_out_of_time():
         rank([[x, y], [y, x]], 0.0)
 
 
-@pytest.mark.thin(3)
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), [(2, True), (3, False), (3, True), (4, False)])
 def test_proven_ranks_are_the_sampled_ones(n, damped):
     for chain in Family(n, damped):
@@ -122,6 +122,7 @@ def _poly(expression, ring):
     return eval(str(expression).replace("^", "**"), {}, dict(ring)) * one
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "damped"), [(3, False), (3, True), pytest.param(4, False, marks=pytest.mark.slow)]
 )

@@ -73,6 +73,7 @@ def degrees(chain, values):
     return tuple(sympy.degree(p, s) for p in sympy.fraction(sympy.cancel(g)))
 
 
+@pytest.mark.full
 def test_fosters_theorem_leaves_special_values_out_because_it_must():
     """With the force on the middle mass and both sides alike a pole is cancelled; with the force at
     the end none ever is: no 3:1 behaves as that 3:4.

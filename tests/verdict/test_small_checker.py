@@ -41,6 +41,7 @@ def test_what_it_does_not_repeat_is_named():
     assert any(reason.startswith("both ways (") for reason in opinion.searched)
 
 
+@pytest.mark.full
 def test_a_catalogue_is_checked_by_it_first(tmp_path, capsys):
     for file in shipped_folder().glob("*-2-*damped.jsonl"):
         shutil.copy(file, tmp_path)

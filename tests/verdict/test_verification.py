@@ -50,6 +50,7 @@ def test_every_altered_leaf_is_found_in_every_kind_of_verdict(kind: str) -> None
     test_every_altered_leaf_is_found(kind)
 
 
+@pytest.mark.full
 def test_who_alters_a_verdict_and_all_that_is_derived_from_it_is_found_too() -> None:
     ranks, names = plain("3:1", "3:4"), plain("3:1", "3:11")
     numbers = ranks["evidence"] | {"left": 7, "right": 6}
@@ -79,6 +80,7 @@ def test_a_bound_of_shares_that_was_raised_is_found_though_the_evidence_is_true(
     assert sure == "does not hold: the certainty is not that of the evidence"
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("left", "right"), [("3:3", "3:11"), ("3:1", "3:7")])
 def test_a_bound_of_an_inclusion_that_was_raised_is_found(left: str, right: str) -> None:
     """An ideal refutes the one, a fibre tells the other."""
@@ -90,6 +92,7 @@ def test_a_bound_of_an_inclusion_that_was_raised_is_found(left: str, right: str)
     assert "its certainty" in verify(told_again(data, inclusions=surer)).sentence
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("also", [None, [Experiment(), Experiment(sensor=1)]])
 def test_a_limit_that_the_relative_degree_denied_does_not_hold(also: Any) -> None:
     """As a file of version 0.2.0 says it of T1 -> 0: proven, and false."""
@@ -163,6 +166,7 @@ def test_all_verdicts_of_a_catalogue_hold(n: int, damped: bool) -> None:
             assert verify(data).status is (Status.HOLDS if known else Status.OPEN), (i, j)
 
 
+@pytest.mark.full
 def test_the_command_checks_files_and_pairs(tmp_path: Path) -> None:
     path = tmp_path / "verdict.json"
     path.write_text(called("compare", "4:4", "A1", "--undamped", "--json").stdout, encoding="utf-8")

@@ -120,7 +120,7 @@ def told(name: str) -> dict[str, Any]:
     return plain(left, right, **said)
 
 
-@pytest.mark.thin(4)
+@pytest.mark.full
 @pytest.mark.parametrize("name", CASES)
 def test_what_was_decided_holds_from_its_file_alone(name: str) -> None:
     assert verify(told(name)).sentence == "holds"
@@ -204,7 +204,7 @@ def test_who_alters_evidence_and_writes_all_that_is_derived_anew_is_found_out(
     assert not believed(told(name), *free.split())
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     "lie",
     [
@@ -298,6 +298,7 @@ def test_every_altered_leaf_is_found_in_every_case(name: str) -> None:
     test_every_altered_leaf_is_found(name)
 
 
+@pytest.mark.full
 def test_experiments_and_models_are_named_wholly() -> None:
     data = told("measured: solved")
     there = data["experiments"][1]["right"]
@@ -364,6 +365,7 @@ HOSTILE: dict[str, tuple[tuple[Any, ...], Any]] = {
 }
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_damaged_or_hostile_file_is_refused_in_a_sentence(name: str, tmp_path: Path) -> None:
     path = tmp_path / "v.json"
@@ -373,6 +375,7 @@ def test_a_damaged_or_hostile_file_is_refused_in_a_sentence(name: str, tmp_path:
     assert "damaged" in str(error.value) and len(str(error.value)) < 600
 
 
+@pytest.mark.full
 def test_a_missing_key_or_deep_nesting_is_refused(tmp_path: Path) -> None:
     path, data = tmp_path / "v.json", told("measured: solved")
     for key in [name for name in data if name != "format"]:
@@ -389,6 +392,7 @@ def test_a_missing_key_or_deep_nesting_is_refused(tmp_path: Path) -> None:
         verify(put(data, ("evidence", "labels"), deep))
 
 
+@pytest.mark.full
 def test_large_numbers_in_evidence_end_soon() -> None:
     refuted = told("general: refuted")
     assert verify(put(refuted, ("evidence", "degree"), -1)).status is Status.FAILS

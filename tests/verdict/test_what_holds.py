@@ -13,6 +13,7 @@ from tests.cli.process import called
 from tests.verdict.lies import found_out, plain, put, told_again
 
 
+@pytest.mark.full
 def test_it_says_which_verdict_holds_and_what_was_looked_at():
     data = plain("3:6", "3:7")
     found = verify(data)
@@ -30,6 +31,7 @@ def test_what_does_not_hold_is_not_said_again():
     assert found.verdicts == () == found.found_again
 
 
+@pytest.mark.full
 def test_free_names_are_said_to_be_free():
     models = (
         Model.from_transfer_function("a", "s + b", name="pump"),
@@ -83,6 +85,7 @@ def test_what_nothing_compares_is_refused(place):
     assert found_out(data)
 
 
+@pytest.mark.full
 def test_words_that_nothing_compares_are_not_in_a_file():
     """Reasons of what is not known, and what was given up; whoever adds some is found out."""
     limit = plain("3:6", "3:7")

@@ -74,6 +74,7 @@ def test_the_model_itself_is_listed_where_both_slopes_vanish(
 # ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("n_masses", [1, 2, 3, 5, 8, 12])
 @pytest.mark.parametrize("rubbing", [False, True])
 @pytest.mark.parametrize("damped", [False, True])

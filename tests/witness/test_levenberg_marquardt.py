@@ -91,13 +91,14 @@ def test_chains_of_other_degrees_have_no_common_point() -> None:
     )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("pair", SAME, ids=str)
 def test_three_masses_damped_sample(pair: tuple[int, int]) -> None:
     family = Family(3, damped=True)
     assert agrees(family[pair[0]], family[pair[1]], SAME[pair])
 
 
+@pytest.mark.full
 def test_a_chain_has_its_own_receptance() -> None:
     chain = Chain(3, 1, 1, 2, 1, 3, damped=True)
     assert best_residual(chain, chain, starts=32) < FOUND

@@ -29,6 +29,7 @@ def shipped(n: int, damped: bool) -> Relations:
     return {(i, j): v.relation for i, j, v in catalog(n, damped=damped).pairs(View.EXACT)}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("seed", ["first", pytest.param("second", marks=pytest.mark.slow)])
 def test_three_masses_with_other_seeds(damped: bool, seed: str) -> None:
@@ -42,6 +43,7 @@ def test_twenty_seeds(n: int, damped: bool, seed: str) -> None:
     assert computed(Family(n, damped), seed) == shipped(n, damped)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_three_masses_in_the_other_order(damped: bool) -> None:
     assert computed(Family(3, damped), backwards=True) == shipped(3, damped)
@@ -53,6 +55,7 @@ def test_four_masses_in_the_other_order(damped: bool) -> None:
     assert computed(Family(4, damped), backwards=True) == shipped(4, damped)
 
 
+@pytest.mark.full
 def test_a_verdict_of_a_pair_does_not_depend_on_its_order() -> None:
     """Pair by pair, each order by an engine of its own: the relation, what decided it, and how
     surely.
@@ -73,7 +76,7 @@ def _verdict(family: Family, left: int, right: int) -> Verdict:
     )
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("sensor", [Quantity.POSITION, Quantity.VELOCITY])
 def test_three_masses_with_other_sensors(damped: bool, sensor: Quantity) -> None:

@@ -49,7 +49,7 @@ def holds(solution: Solution, point: Point) -> bool:
         return all(solution.values[name].contains(acb(x)) for name, x in exact(point).items())
 
 
-@pytest.mark.thin(12)
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize(("n", "g"), [(n, g) for n in range(2, 6) for g in range(n)] + [(8, 5)])
 def test_dual_chains_have_one_receptance(n: int, g: int, damped: bool) -> None:
@@ -154,6 +154,7 @@ def is_right(chain: Chain, values: Point, found: Fibre) -> bool:
     return found.status is not Status.EMPTY
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("ratio", [Fraction(1), Fraction(1, 7)])
 @pytest.mark.parametrize("chain", SPECIAL, ids=str)
 def test_proportional_damping_is_never_empty(chain: Chain, ratio: Fraction) -> None:
@@ -162,6 +163,7 @@ def test_proportional_damping_is_never_empty(chain: Chain, ratio: Fraction) -> N
     assert is_right(chain, point, planted(chain, point))
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("chain", SPECIAL + UNDAMPED, ids=str)
 def test_equal_masses_are_never_empty(chain: Chain) -> None:
     point = random_point(chain, "equal")
@@ -169,12 +171,14 @@ def test_equal_masses_are_never_empty(chain: Chain) -> None:
     assert is_right(chain, point, planted(chain, point))
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("chain", SPECIAL + UNDAMPED, ids=str)
 def test_equal_elements_are_never_empty(chain: Chain) -> None:
     point = dict.fromkeys(chain.parameters, Fraction(1))
     assert is_right(chain, point, planted(chain, point))
 
 
+@pytest.mark.full
 @settings(max_examples=30, deadline=None)
 @given(st.sampled_from(SPECIAL + UNDAMPED), st.data())
 def test_small_whole_numbers_are_never_empty(chain: Chain, data: st.DataObject) -> None:
@@ -193,7 +197,7 @@ def test_many_small_whole_numbers_are_never_empty(chain: Chain) -> None:
         assert is_right(chain, point, planted(chain, point)), point
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [3, 4])
 def test_collocated_undamped_chains_are_never_missed_at_equal_elements(n: int) -> None:
     """Foster: all of them realise each other's receptances, with positive elements, unless

@@ -4,6 +4,7 @@ import { follow, upload } from "./call.js";
 import { fieldsOf } from "./fields.js";
 import { fitSection } from "./fit.js";
 import { draw } from "./plot.js";
+import { zoomable } from "./zoom.js";
 
 const PAUSE = 250; // milliseconds without a change after which a file is read again
 const LARGEST = 200e6; // bytes of a file
@@ -25,9 +26,10 @@ const facts = (rows) => element("dl", { class: "provenance" }, rows.map(([name, 
 
 export const start = async (root, call) => {
   const state = { measurements: [], masses: [1, 2, 3, 4], ...((await call("open", { page: "data" })).content ?? {}) };
-  let chosen = 0, asked = 0, timer = 0, redraw = () => {};
+  let chosen = 0, asked = 0, timer = 0, redraw = () => {}, expected = {};
   const kept = new Set((await call("files", {})).files.map(({ name }) => name));
   state.measurements = state.measurements.filter(({ file }) => kept.has(file));
+  delete state.measurements[0]?.role; // the first is always fitted
   const save = () => call("save", { page: "data", content: state }).catch((error) => trouble(error.message));
 
   const troubles = element("p", { class: "trouble", role: "alert" });
@@ -40,7 +42,7 @@ export const start = async (root, call) => {
     element("details", {}, element("summary", {}, "Paste a table"), element("label", { for: "pasted" }, "Rows of numbers, with a header if there is one"), pasted,
       element("p", {}, element("button", { type: "button", class: "plainbutton", onclick: () => addPasted() }, "Read the table"))), troubles);
   const seenPart = element("div", { id: "seen" });
-  const fitting = fitSection({ call, follow, state, save, trouble, addNext: () => picker.click(), setQuantity });
+  const fitting = fitSection({ call, follow, state, save, trouble, addNext, setQuantity });
   root.append(element("h1", {}, "Data"), section("files", "Measurements", drop, tabs), seenPart, fitting.root);
 
   async function add(file, name = file.name) {
@@ -48,12 +50,23 @@ export const start = async (root, call) => {
     trouble("");
     try {
       const { name: own } = await upload(file, name);
-      state.measurements.push({ file: own, reading: {} });
+      const { places = {}, left } = state.measurements.length ? expected : {};
+      expected = {};
+      state.measurements.push({ file: own, reading: left ? structuredClone(state.measurements[0].reading) : {}, ...places });
+      if (left) fitting.only(left);
       chosen = state.measurements.length - 1;
       await save();
       await show();
     } catch (error) { trouble(error.message); }
   }
+  // The next file that is chosen was measured with this setup, such as sensor=2 or lock=2, which a fit advised: it is read
+  // as the first one, and tells apart what that fit left.
+  function addNext(setup, fit) {
+    const [name, place] = setup.split("=");
+    expected = !setup ? {} : { places: ["sensor", "force"].includes(name) ? { [name]: place } : { change: setup }, left: fit };
+    picker.click();
+  }
+  picker.addEventListener("cancel", () => { expected = {}; });
   const addAll = async (files) => { for (const file of files) await add(file); };
   function addPasted() {
     if (pasted.value.trim()) add(new Blob([pasted.value]), "pasted.csv").then(() => { pasted.value = ""; });
@@ -72,25 +85,36 @@ export const start = async (root, call) => {
     return show();
   }
 
-  const showTabs = () => tabs.replaceChildren(...state.measurements.map(({ file }, i) => element("span", { class: "measurement" },
-    element("button", { type: "button", class: "plainbutton", "aria-pressed": String(i === chosen), onclick: () => { chosen = i; show(); } }, `${i + 1}. ${file}`),
+  const showTabs = () => tabs.replaceChildren(...state.measurements.map(({ file, role }, i) => element("span", { class: "measurement" },
+    element("button", { type: "button", class: "plainbutton", "aria-pressed": String(i === chosen), onclick: () => { chosen = i; show(); } }, `${i + 1}. ${file}${role ? " (test)" : ""}`),
     element("button", { type: "button", class: "plainbutton", "aria-label": `Remove measurement ${i + 1}, ${file}`, onclick: () => remove(i) }, "×"))));
   function remove(i) {
     state.measurements.splice(i, 1);
+    delete state.measurements[0]?.role; // the first is always fitted
     chosen = Math.max(0, Math.min(chosen, state.measurements.length - 1));
     announce("Removed from the list; the file stays in the project folder.");
     save();
     show();
   }
 
-  // Where a further measurement differs from the first.
-  const places = (measurement, i) => (i === 0 ? null : element("fieldset", { class: "fields" }, element("legend", {}, "What is different from the first measurement"),
-    [["sensor", "Sensor at mass", "2"], ["force", "Force at mass", "as the first"], ["change", "Change of the machine", "lock=2 or inertia=1:0.5"]].map(([name, label, example]) => element("p", { class: "field" },
+  // Where the sensor and the force of a measurement are; of a further one also what it is for.
+  const PLACES = [["sensor", "Sensor at mass"], ["force", "Force at mass"], ["change", "Change of the machine"]];
+  const isTest = ({ role }) => role === "test";
+  const places = (measurement, i) => element("fieldset", { class: "fields" }, element("legend", {}, i ? "This measurement beside the first" : "Places"),
+    i ? element("p", { class: "field" }, element("label", { for: "role" }, "Use it to"), element("select", { id: "role", onchange: (event) => setRole(measurement, event.target.value) },
+      [["", "fit together with the first"], ["test", "test the fit of the first"]].map(([value, text]) => element("option", { value, selected: (measurement.role ?? "") === value }, text)))) : null,
+    isTest(measurement) ? element("p", { class: "hint" }, "The same machine, sensor and force, measured again. It is read as the first measurement, and tests the fit in place of cross-validation.") : PLACES.slice(0, i ? 3 : 2).map(([name, label], k) => element("p", { class: "field" },
       element("label", { for: `place-${name}` }, label),
-      element("input", { id: `place-${name}`, type: "text", value: measurement[name] ?? "", placeholder: example, maxlength: 200, onchange: (event) => {
+      element("input", { id: `place-${name}`, type: "text", value: measurement[name] ?? "", placeholder: i ? ["as the first", "as the first", "lock=2 or inertia=1:0.5"][k] : "1", maxlength: 200, onchange: (event) => {
         if (event.target.value.trim()) measurement[name] = event.target.value.trim(); else delete measurement[name];
         save();
-      } })))));
+      } }))));
+  function setRole(measurement, role) {
+    for (const one of state.measurements) if (role && one.role) delete one.role; // one tests the fit
+    if (role) measurement.role = role; else delete measurement.role;
+    save();
+    show();
+  }
 
   const first = new Map(); // what was read without any field, by file: choices stay, whatever the fields hold
   async function show() {
@@ -102,8 +126,8 @@ export const start = async (root, call) => {
     try {
       const plain = first.get(measurement.file) ?? await call("look", { file: measurement.file, reading: {} });
       first.set(measurement.file, plain);
-      const bare = !Object.keys(measurement.reading).length;
-      const seen = bare ? plain : await call("look", { file: measurement.file, reading: measurement.reading });
+      const { reading } = isTest(measurement) ? state.measurements[0] : measurement;
+      const seen = Object.keys(reading).length ? await call("look", { file: measurement.file, reading }) : plain;
       if (own === asked) render(measurement, seen, plain);
     } catch (error) {
       if (own === asked) refuse(measurement, error.message);
@@ -133,6 +157,7 @@ export const start = async (root, call) => {
   function refuse(measurement, sentence) {
     const reset = element("button", { type: "button", class: "plainbutton", onclick: () => again(measurement)(() => ({})) }, "Read it without these settings");
     const plain = first.get(measurement.file);
+    if (isTest(measurement)) { replace(section("read", `What was read: ${measurement.file}`, element("p", { class: "warning", role: "alert" }, sentence), places(measurement, chosen))); fitting.show(null); return; }
     const fields = plain && Object.keys(measurement.reading).length ? [fieldsOf(plain, measurement.reading, again(measurement), trouble), element("p", {}, reset)] : [];
     replace(section("read", `What was read: ${measurement.file}`, element("p", { class: "warning", role: "alert" }, sentence), ...fields));
     fitting.show(null);
@@ -142,14 +167,15 @@ export const start = async (root, call) => {
     const { look, diagram } = seen;
     const merged = { ...plain.look, record: look.record ?? plain.look.record, quantity: look.quantity, assumed: look.assumed, impedance: look.impedance, columns: look.columns };
     const picture = diagram ? svg("svg", { id: "diagram", class: `plot ${diagram.kind}`, role: "img" }) : null;
+    const plot = picture ? zoomable(picture, diagram, draw) : null;
     replace(section("read", `What was read: ${measurement.file}`,
       look.doubts.map((doubt) => element("p", { class: "warning" }, doubt)),
-      fieldsOf(seen, measurement.reading, again(measurement), trouble, merged), places(measurement, chosen),
-      picture ? element("figure", { class: "panel" }, picture, element("figcaption", { class: "hint" }, diagram.wide ? "Bars: 95 % of the scatter of a line." : "The scatter of the lines is not known.")) : null,
+      isTest(measurement) ? null : fieldsOf(seen, measurement.reading, again(measurement), trouble, merged), look.impedance ? null : places(measurement, chosen),
+      picture ? element("figure", { class: "panel" }, plot.root, element("figcaption", { class: "hint" }, diagram.wide ? "Bars: 95 % of the scatter of a line." : "The scatter of the lines is not known.")) : null,
       look.assumed.length ? element("h3", {}, "Assumed: change it above where it is wrong") : null, list(look.assumed.map(({ what }) => what), "near"),
       facts(seen.facts), element("details", {}, element("summary", {}, "Columns"), columnTable(look)),
       element("details", {}, element("summary", {}, "The same on the command line"), command(seen.command))));
-    redraw = () => { if (picture?.clientWidth) draw(picture, diagram); };
+    redraw = plot?.redraw ?? (() => {});
     redraw();
     announce(diagram ? picture.getAttribute("aria-label") : "No response was read.");
     fitting.show(seen);

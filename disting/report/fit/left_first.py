@@ -34,13 +34,20 @@ def repeat_command(lead: ChainAdvice) -> str:
     """
     if not lead.named.command or len(lead.left) < 2:
         return ""
-    best = _best(lead, lead.seen, _others(lead)) if lead.seen else None
-    what = "sensor=MASS"
-    if best is not None:
-        kind, size = best.item.kind, ":SIZE" if best.item.kind.takes_size else ""
-        what = f"{kind.name}={best.item.at}{size}"
+    what = advised_setup(lead) or "sensor=MASS"
     text = f"--left {shlex.quote(lead.source)} --experiment NEW:{what}"
     return f"{lead.named.command} {text}"
+
+
+def advised_setup(lead: ChainAdvice) -> str:
+    """Setup of the experiment that the first sentence advises, as the option --experiment takes it:
+    sensor=2, or inertia=1:SIZE where its size is to be named; "" where it advises none.
+    """
+    best = _best(lead, lead.seen, _others(lead)) if lead.seen and len(lead.left) > 1 else None
+    if best is None:
+        return ""
+    kind, size = best.item.kind, ":SIZE" if best.item.kind.takes_size else ""
+    return f"{kind.name}={best.item.at}{size}"
 
 
 def first_sentence(lead: ChainAdvice) -> str:

@@ -55,9 +55,12 @@ def write_plans(
     """
     folder.mkdir(parents=True, exist_ok=True)
     shown = [_show_plan(plan, best, folder, k) for k, (plan, best) in enumerate(plans, 1)]
-    page = _page(named, shown, reverse, source, file, folder)
-    files: list[tuple[str, bytes | list[str]]] = [("plan.html", [page])]
-    files.append(("plan.json", [json_text(plain, indent=1), "\n"]))
+    title = title_of([plan for plan, _ in plans], named)
+    page = _page(title, named, shown, reverse, source, file, folder)
+    files: list[tuple[str, bytes | list[str]]] = [
+        ("plan.html", [page]),
+        ("plan.json", [json_text(plain, indent=1), "\n"]),
+    ]
     for k, ((plan, best), row) in enumerate(zip(plans, shown, strict=True), 1):
         if best is None or row.figure is None:
             continue
@@ -92,6 +95,7 @@ def _show_plan(plan: Plan, best: Design | None, folder: Path, k: int) -> ShownPl
 
 
 def _page(
+    title: str,
     named: FitRecord | NamedNetworks,
     shown: Sequence[ShownPlan],
     reverse: Sequence[Plan],
@@ -102,7 +106,7 @@ def _page(
     name = name_of(named.model)
     return render(
         "plan.html",
-        title=_title(shown, named),
+        title=title,
         explained=named.explained,
         reverse=[(back.names[0], answer_in_words(back)) for back in reverse],
         name=name,
@@ -126,22 +130,17 @@ def _onward(named: FitRecord | NamedNetworks, file: Path) -> list[Step]:
     return [Step("Which other experiment separates them:", command)] if named.same else []
 
 
-def _title(shown: Sequence[ShownPlan], named: FitRecord | NamedNetworks) -> str:
+def title_of(plans: Sequence[Plan], named: FitRecord | NamedNetworks) -> str:
     """Return the answer in a few words."""
-    more = [row.name for row in shown if row.answer == "measure more"]
-    enough = sum(row.answer == "enough" for row in shown)
-    if not shown:
+    more = [plan.names[1] for plan in plans if plan.answer is Answer.MORE]
+    enough = sum(plan.answer is Answer.ENOUGH for plan in plans)
+    if not plans:
         if not named.explained:
             return "The fit explains nothing, so it names no rival"
         return "Measuring more separates nothing" if named.same else "The fit left no rival"
     if more:
-        return (
-            f"Measure more to exclude {more[0]}"
-            if len(more) == 1
-            else (f"Measure more to exclude {plural(len(more), 'rival')}")
-        )
-    return (
-        "The same effort excludes every rival"
-        if enough == len(shown)
-        else (f"More of the same excludes {enough} of {plural(len(shown), 'rival')}")
-    )
+        rivals = more[0] if len(more) == 1 else plural(len(more), "rival")
+        return f"Measure more to exclude {rivals}"
+    if enough == len(plans):
+        return "The same effort excludes every rival"
+    return f"More of the same excludes {enough} of {plural(len(plans), 'rival')}"

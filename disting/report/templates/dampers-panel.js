@@ -71,7 +71,7 @@ const createDamperPanel = (data, classes, models) => {
   const fillStructure = (s) => {
     const own = collected(models.ofStructure(s).map((i) => [classes.group(i), spelled(i)]));
     const same = [...own.values()].filter((sets) => sets.length > 1).map((sets) => sets.join(" = "));
-    put({ title: `A${s} with all sets of dampers`, badge: "", where: plural(models.ofStructure(s).length, "model"), members: same.length ? `Not told apart over complex parameters: ${same.join("; ")}.` : "" });
+    put({ title: `A${s} with all sets of dampers`, badge: "", where: plural(models.ofStructure(s).length, "model"), members: same.length ? `Indistinguishable over complex parameters: ${same.join("; ")}.` : "" });
     const groups = [...own.keys()], open = groups.flatMap((a, k) => groups.slice(k + 1).filter((b) => classes.undecided(a, b))).length;
     const apart = open ? `; ${plural(open, "pair")} of these ${open === 1 ? "is" : "are"} undecided, all others are distinguishable` : groups.length > 1 ? " that are distinguishable" : "";
     put({ why: `Its ${data.sets.length} sets of dampers to the ground fall into ${plural(groups.length, "group")}${apart}. A set is written by its masses, 0 is none.` });

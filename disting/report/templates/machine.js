@@ -87,7 +87,7 @@
     box.append(code, button);
     return box;
   };
-  const NOTHING = "Nothing is said here about what else looks like this machine: it is in no catalogue of this site. ";
+  const NOTHING = "This machine is in no catalogue of this site, so its equivalents are not listed here. ";
   const sayExtended = (c, number, how, turned, extras) => { // a chain with friction, lag, dead time, another quantity
     const g = +gap.value, there = (k) => (turned && k > g ? g + 1 + c.masses - k : k);
     const name = `${c.masses}:${number}${damperSet(extras.friction.map(there).sort((a, b) => a - b))}${extras.lag ? "+lag" : ""}${extras.delay ? "+delay" : ""}`;
@@ -96,7 +96,7 @@
     const flags = `${c.damped ? "" : " --undamped"}${extras.quantity === "acceleration" ? "" : ` --quantity ${extras.quantity}`}`;
     put("number", `${name}, ${c.title}${extras.quantity === "acceleration" ? "" : `, ${extras.quantity}`}`);
     put("remark", how ? `Listed with ${how}: the transfer function is the same.` : "");
-    put("twins", ...(found.address ? ["What looks the same, and what does not, stands in ", link("its row of the catalogue with dampers to the ground", found.address), "."] : [NOTHING, "This command tells it, at values that you give:"]));
+    put("twins", ...(found.address ? ["Its verdicts are in ", link("its row of the catalogue with dampers to the ground", found.address), "."] : [NOTHING, "This command computes them for the values that you give:"]));
     put("commands", ...(found.address ? [] : [command(`disting equivalents ${name} --to "${c.masses}+b*"${flags} --set ${valuesOf(c, extras)}`)]));
     form.dataset.model = name;
     put("typed", `${name}${flags}`);
@@ -107,8 +107,8 @@
     drawMachine(slot("drawing"), c.masses, described, c.damped, extras);
     slot("drawing").setAttribute("aria-label", `A machine: ${text}`);
     put("number", text);
-    put("remark", extras.lag || extras.delay ? "A lag and a dead time are no part of such a machine: they are left away." : "");
-    put("twins", NOTHING, "These commands tell it:");
+    put("remark", extras.lag || extras.delay ? "Such a machine cannot have a lag or a dead time: both were left out." : "");
+    put("twins", NOTHING, "These commands compute them:");
     put("commands", ...[`disting models "${text}"`, ...(family && !extras.second ? [`disting equivalents "${text}" --family ${family}`] : []), `disting draw "${text}" --svg machine.svg`].map(command));
     form.dataset.model = text;
     put("typed", "no chain with a number");
@@ -121,10 +121,10 @@
     put("remark", how ? `Listed with ${how}: the transfer function is the same.` : "");
     put("known", (c.known[number] || "").replace("{0}", `A${number}`)); // before any "distinguishable"
     put("twins", ...(twins.length ? [
-      `Whatever its positive parameters${c.aside.includes(number) ? ", special values aside" : ""}, ${twins.length} other ${one ? "model" : "models"} cannot be told apart from it with this force and sensor: `,
+      `Whatever its positive parameters${c.aside.includes(number) ? ", special values aside" : ""}, no experiment with this force and sensor distinguishes it from ${twins.length} other ${one ? "model" : "models"}: `,
       ...links(twins), ".",
-    ] : others ? [open || depends.length ? "No other model is known that can never be told apart from it." : "With generic positive parameters it is distinguishable from every other model of this catalogue."] : ["The only model of this size."]));
-    put("depends", ...(depends.length ? ["It depends on the positive parameters whether an experiment tells it from ", ...links(depends), "."] : []));
+    ] : others ? [open || depends.length ? "No other model is known to be indistinguishable from it." : "With generic positive parameters it is distinguishable from every other model of this catalogue."] : ["The only model of this size."]));
+    put("depends", ...(depends.length ? ["The positive parameters determine whether an experiment can distinguish it from ", ...links(depends), "."] : []));
     put("open", open ? `With ${open} ${open === 1 ? "model" : "models"} this is undecided over positive parameters.` : "");
     put("links", link(`Model page of A${number}`, `${c.folder}/${number}.html`), link("Its column in the matrix", `${c.name}.html#A${number}`));
     form.dataset.model = `${c.masses}:${number}`;

@@ -22,15 +22,15 @@
   const given = () => chains[pair[0] - 1], other = () => chains[pair[1] - 1];
   const forceKind = () => byId("drive").elements.force.value;
 
-  // ---- what is said
+  // ---- sentences
   const leavesOut = (pair) => data.aside.some((other) => other.every((i) => pair.includes(i)));
   const SAYS = {
-    always: (a, b) => `Whatever the positive parameters of ${a}${leavesOut(pair) ? ", special values aside" : ""}, some of ${b} give the very same response: no experiment with this force and sensor tells them apart.`,
-    "always-there": (a, b) => `Whatever the positive parameters of ${a}, special values aside, some of ${b} give the very same response; the reverse holds for some only.`,
-    sometimes: (a, b) => `For some positive parameters of ${a}, some of ${b} give the very same response; for others none do.`,
-    open: (a, b) => `Whether positive parameters of ${b} do what ${a} does is not known.`,
-    apart: (a, b) => `An experiment tells them apart: with generic positive parameters, at least one of ${a} and ${b} does what the other cannot.`,
-    never: (a, b) => `An experiment tells them apart: with generic positive parameters, ${b} cannot do what ${a} does.`,
+    always: (a, b) => `Whatever the positive parameters of ${a}${leavesOut(pair) ? ", special values aside" : ""}, some of ${b} give the same response: no experiment with this force and sensor distinguishes them.`,
+    "always-there": (a, b) => `For all positive parameters of ${a}, special values aside, some of ${b} give the same response; the reverse holds for some only.`,
+    sometimes: (a, b) => `For some positive parameters of ${a}, some of ${b} give the same response; for others none do.`,
+    open: (a, b) => `It is unknown whether positive parameters of ${b} can give the response of ${a}.`,
+    apart: (a, b) => `An experiment distinguishes them: with generic positive parameters, at least one of ${a} and ${b} has responses that the other cannot produce.`,
+    never: (a, b) => `An experiment distinguishes them: ${b} cannot produce the response of ${a} with generic positive parameters.`,
   };
   const names = () => pair.map(nameOf);
   const apart = ({ decibels, omega }) => `${short(Math.abs(decibels))} dB at ${short(omega / (2 * Math.PI))} Hz`;
@@ -38,11 +38,11 @@
   const howSaid = () => {
     const [a, b] = names();
     if (found.how === "formula") return `The values of ${b} follow from those of ${a} by formulas.`;
-    if (found.how === "same") return `No formulas are used here: these values of ${b}, found in this page, do the same to within rounding.`;
-    if (found.how === "impossible") return `With these values of ${a}, ${b} would need ${failing().join(" and ")} that ${failing().length > 1 ? "are" : "is"} not positive, which no machine has; positive values that do the same ${found.searching ? "are looked for" : "were not found"}.`;
-    const lent = data.damped ? "" : ` (both seen as if damped by ${100 * LENT} %)`;
-    const exist = kindOf(...pair).startsWith("always") && !found.searching ? "The values that do the same were not found here. " : "";
-    return `${exist}${found.searching ? "Searching; best so far" : "Best found in this page"}: ${b} parts from ${a} by up to ${apart(found.most)}${lent}.`;
+    if (found.how === "same") return `No formulas are used here: these values of ${b}, found numerically, give the same response up to rounding.`;
+    if (found.how === "impossible") return `With these values of ${a}, ${b} would need ${failing().join(" and ")} that ${failing().length > 1 ? "are" : "is"} not positive, which no machine has; ${found.searching ? "positive values with the same response are being searched" : "no positive values with the same response were found"}.`;
+    const lent = data.damped ? "" : ` (both with ${100 * LENT} % damping added)`;
+    const exist = kindOf(...pair).startsWith("always") && !found.searching ? "Values with the same response exist, but this search did not find them. " : "";
+    return `${exist}${found.searching ? "Searching; best so far" : "Best values found"}: ${b} differs from ${a} by up to ${apart(found.most)}${lent}.`;
   };
   const say = () => {
     const [a, b] = names(), fails = found.how === "impossible";
@@ -51,7 +51,7 @@
     const how = byId("how");
     if (how.textContent !== howSaid()) how.textContent = howSaid();
     how.classList.toggle("fails", fails);
-    byId("two-how").textContent = { formula: "does the same", same: "does the same", impossible: "does the same, but cannot be built" }[found.how] || "comes as near as it can";
+    byId("two-how").textContent = { formula: "same response", same: "same response", impossible: "same response, but cannot be built" }[found.how] || "nearest response found";
     document.querySelector("figure.two").classList.toggle("impossible", fails);
   };
 
@@ -163,7 +163,7 @@
     const chosen = (i) => new Option(data.hints?.[i - 1] ? `${nameOf(i)}: ${data.hints[i - 1]}` : nameOf(i), i);
     byId("left").replaceChildren(...numbers.map(chosen));
     byId("left").value = pair[0];
-    const titles = { always: "Not told apart", "always-there": "Does all that it does", sometimes: "Depends on the values", open: "Not known", apart: "Told apart", never: "Told apart" };
+    const titles = { always: "Indistinguishable", "always-there": "Has all its responses", sometimes: "Depends on the values", open: "Not known", apart: "Distinguishable", never: "Distinguishable" };
     const groups = RANK.map((kind) => [titles[kind], numbers.filter((i) => i !== pair[0] && kindOf(pair[0], i) === kind)]).filter(([, of]) => of.length);
     byId("right").replaceChildren(...groups.map(([label, of]) => {
       const group = Object.assign(document.createElement("optgroup"), { label });

@@ -104,6 +104,7 @@ def test_points_of_proofs_are_independent():
     assert not {t.modulus for t in seen} & {t.modulus for t in other}
 
 
+@pytest.mark.full
 def test_a_coefficient_and_a_ground_damper_of_the_same_name_are_told_apart():
     ports = {"gap": 2, "act_minus": 1, "act_plus": 3, "meas_minus": 2, "meas_plus": 3}
     found = identifiability(

@@ -31,6 +31,7 @@ NOT, GLOBAL = "not identifiable", ("global", 1, 1)
 TWO, THREE = ("local", 2, 2), ("local", 1, 3)
 
 
+@pytest.mark.full
 def test_three_masses():
     assert levels(3, False) == [GLOBAL, NOT, NOT, TWO, NOT, TWO, NOT, GLOBAL, NOT, NOT, GLOBAL]
     assert levels(3, True) == [
@@ -100,6 +101,7 @@ def test_what_can_be_determined(n_masses, number, damped, combinations):
     assert identifiability(Family(n_masses, damped)[number]).combinations == combinations
 
 
+@pytest.mark.full
 def test_the_sentences():
     said = {number: f.sentence for number, f in enumerate(identifiabilities(Family(3, True)), 1)}
     assert (
@@ -129,6 +131,7 @@ def test_the_sentences():
     assert long.sentence.endswith("k34/m3 + k34/m4, transfer-function coefficient a2.")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n_masses", [2, 3, 4])
 def test_foster(n_masses):
     """Undamped chains with force and sensor at one place: all ways to share out poles and
@@ -149,6 +152,7 @@ def test_foster(n_masses):
         assert found.count_grade == (Certainty.THEOREM, 0)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize(
     "chain",
     [
@@ -173,6 +177,7 @@ def test_many_solutions_are_counted_by_the_theorem_and_not_listed():
     assert confirms(found, Chain(10, 4, 4, 5, 4, 5, damped=False))
 
 
+@pytest.mark.full
 def test_duality_of_a_chain_with_itself():
     found = identifiability(Chain(5, 2, 2, 3, 2, 3, damped=True))
     assert found.self_dual and found.level is Level.LOCAL and (found.least, found.most) == (2, 2)
@@ -181,6 +186,7 @@ def test_duality_of_a_chain_with_itself():
     assert not identifiability(Chain(4, 2, 2, 3, 2, 3, damped=True)).self_dual
 
 
+@pytest.mark.full
 def test_single_parameters():
     found = identifiability(Family(3, True)[4])
     assert {c.text: c.unique for c in found.singles} == {"m2": Answer.YES} | dict.fromkeys(
@@ -190,6 +196,7 @@ def test_single_parameters():
     assert all(c.unique is Answer.YES for c in identifiability(Family(3, True)[1]).singles)
 
 
+@pytest.mark.full
 def test_what_the_synthesis_does_not_cover_is_unknown_but_the_ranks_are_told():
     chain = Chain(3, damped=True, ground_dampers=(1,))
     neighbours = Chain(3, meas_plus=2, damped=True, ground_dampers=(1, 2))
@@ -234,6 +241,7 @@ def test_findings_are_confirmed_by_what_they_say():
         assert confirms(identifiability(chain), chain), chain
 
 
+@pytest.mark.full
 def test_false_findings_are_not_confirmed():
     local, short, exchanged = (identifiability(Family(3, True)[number]) for number in (6, 7, 4))
     wrong = replace(short.basis[0], formula=Formula(((1, (("m2", 1),)),)))
@@ -276,6 +284,7 @@ def test_a_single_solution_that_may_not_be_the_only_one_is_no_global_identifiabi
         assert judge(3, 2, proven, known)[0] is Level.NOT
 
 
+@pytest.mark.full
 def test_grades():
     found = identifiability(Family(3, True)[1])
     assert found.rank_grade == (Certainty.PROVEN, 0) and found.safety == 0
@@ -301,6 +310,7 @@ def test_formulas_for_print():
     )
 
 
+@pytest.mark.full
 def test_findings_turn_into_plain_data_and_back():
     for chain in (*Family(3, True), Chain(4, meas_plus=4, damped=False)):
         found = identifiability(chain)
@@ -319,6 +329,7 @@ def test_findings_cannot_contradict_themselves_and_are_not_true_or_false():
         replace(found, rank=1)
 
 
+@pytest.mark.full
 def test_settings_steer_the_points():
     chain = Family(3, True)[3]
     one, three, five = (identifiability(chain, Settings(points=points)) for points in (1, 3, 5))

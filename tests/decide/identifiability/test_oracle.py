@@ -53,7 +53,7 @@ def test_number_of_solutions_of_four_masses(number):
     assert solutions(chain, PRIME) == identifiability(chain).most
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n_masses", "damped"), [(2, False), (2, True), (3, False), (3, True), (4, False)]
 )

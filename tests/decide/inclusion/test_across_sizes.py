@@ -85,7 +85,7 @@ def test_damped_models_of_three_in_four_masses():
     assert all(f.safety >= 100 for f in findings.values() if f.certainty == "bounded")
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 def test_findings_turn_round_with_the_pair(damped):
     turned = {Inclusion.LEFT_IN_RIGHT: Inclusion.RIGHT_IN_LEFT}
@@ -97,6 +97,7 @@ def test_findings_turn_round_with_the_pair(damped):
             assert confirms(back.evidence, b, a)
 
 
+@pytest.mark.full
 def test_one_mass_is_a_limit_of_every_model():
     for damped in (False, True):
         larger = (canonical(c).chain for n in (2, 3, 4) for c in Family(n, damped))
@@ -190,7 +191,7 @@ def test_false_counts_are_refused():
         assert not confirms(evidence, subject(3, 1), subject(4, 1))
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("number", [14, 20])
 def test_a_limit_and_then_a_fibre(number):
     """The grounded row is let go: two free rows, one of negative mass, are a free and a
@@ -252,6 +253,7 @@ def test_as_many_poles_are_left_open():
     assert finding.inclusion is Inclusion.UNKNOWN and "as many poles" in finding.reason
 
 
+@pytest.mark.full
 def test_a_large_common_factor_is_refuted_too():
     """Three masses fewer, but the grounded mass can share one pole only."""
     small, large = subject(3, 1), ENGINE.subject("6", Chain(6, 1, 1, 2, 1, 6, damped=False))

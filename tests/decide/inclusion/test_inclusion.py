@@ -67,6 +67,7 @@ def test_findings_turn_round_with_the_pair_and_evidence_holds(damped):
             assert there.inclusion in (smaller, Inclusion.NEITHER, Inclusion.UNKNOWN)
 
 
+@pytest.mark.full
 def test_the_damped_model_7_lies_in_6_and_in_no_other():
     models = subjects(3, True)
     found = {
@@ -131,7 +132,7 @@ def test_evidence_on_finite_elements_says_nothing_of_limits():
             Inclusions(image, closure)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "damped", "unknown"), [(3, False, 0), (3, True, 0), (4, False, 0), (4, True, 4)]
 )
@@ -247,6 +248,7 @@ def test_false_evidence_is_refused():
     assert not confirms(Counts((4, 4), (2, 4)), one, two)
 
 
+@pytest.mark.full
 def test_false_evidence_of_rows_is_refused():
     seven, six = (subjects(3, True)[k] for k in (6, 5))
     solved = included_by_rows(
@@ -384,6 +386,7 @@ def test_a_dead_time_of_the_smaller_model_alone_is_no_limit():
         assert inclusions(other, one).closure.evidence == LargerProjection(("Td",), 0, 1)
 
 
+@pytest.mark.full
 def test_verdicts_tell_it():
     family = Family(3, damped=True)
     assert compare(family[6], family[7]).closure is Inclusion.RIGHT_IN_LEFT
@@ -394,6 +397,7 @@ def test_verdicts_tell_it():
     assert compare(family[6], family[7], query=Query(View.COMBINED)).closure is Inclusion.UNKNOWN
 
 
+@pytest.mark.full
 def test_families_tell_it_as_pairs_do():
     family = subjects(3, True)
     decided = ENGINE.decisions(family, Query())

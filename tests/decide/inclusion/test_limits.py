@@ -60,7 +60,7 @@ def moved(row, s, numbers):
     return out
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("row", ROWS)
 def test_limits_against_sympy(row):
     """The limit of the transfer function is of the form of the new row's, for chosen parameters."""

@@ -26,7 +26,7 @@ def pair(small, large, damped=False):
     return canonical(Family(3, damped)[small]).chain, canonical(Family(4, damped)[large]).chain
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("small", "zeros", "grounded", "is_limit"),
     [
@@ -81,6 +81,7 @@ def test_no_limit_is_refuted(damped):
     assert (True, True) not in seen and (True, False) in seen and (False, True) in seen
 
 
+@pytest.mark.full
 def test_one_point_is_a_proof_and_is_checked_again():
     small, large = pair(1, 16, damped=True)
     points = excluding_points(small, large, "one")
@@ -113,6 +114,7 @@ def test_what_is_not_covered_is_not_refuted(more):
     assert excluding_points(canonical(Family(3, damped=False)[1]).chain, large, "x") == ()
 
 
+@pytest.mark.full
 def test_the_equation_of_two_grounded_masses_by_hand():
     """Force and sensor at the inner mass: D = -w^2 modulo N, up to a factor, where w is the
     linear part of N.
@@ -157,6 +159,7 @@ def test_rows_with_any_coefficients_have_no_equation():
     assert row_equation(Row(2, True, 1, 2, True), "none") is None
 
 
+@pytest.mark.full
 def test_coefficients_are_polynomials_also_where_the_lowest_vanish():
     """Springs and dampers that are 0 modulo 5 do not shift the coefficients of such a model."""
     row, modulus, s = Row(2, True, 1, 1, True), 5, sp.Symbol("s")

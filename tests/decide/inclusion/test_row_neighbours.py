@@ -51,7 +51,7 @@ def test_other_functions_of_the_same_degrees_are_no_limits(n):
     assert not are_no_limits(row, [([0, *num[1:]], den, p) for num, den, p in drawn])
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [4, 5, 6])
 def test_its_own_functions_fulfil_it_at_the_root_of_the_joint_alone(n):
     row = Row(n, False, 1, 2, True)
@@ -64,7 +64,7 @@ def test_its_own_functions_fulfil_it_at_the_root_of_the_joint_alone(n):
         assert apart.count(False) == 1
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [4, 5])
 def test_what_is_known_to_be_a_limit_is_refuted_by_no_equation(n):
     stored = catalog(n, damped=True)
@@ -83,6 +83,7 @@ def test_what_is_known_to_be_a_limit_is_refuted_by_no_equation(n):
     assert len(told) > 10 and not refuted
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "large", "small"), [(4, 2, [16, 18]), (5, 2, [25, 32, 47])])
 def test_limits_of_chains_with_neighbours_at_the_end(n, large, small):
     family = Family(n, damped=True)

@@ -87,7 +87,7 @@ def test_catalogues_have_no_open_pair(n, damped):
     assert shares == SHARES[n, damped]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 8, 3), (5, 18, 14), (5, 64, 59), (5, 64, 69)]
 )
@@ -108,7 +108,7 @@ def test_sometimes_one_way_always_the_other(n, i, j):
     assert back.share is Share.ALWAYS and isinstance(back.evidence, Interlacing)
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "i", "j"), [(4, 6, 2), (5, 7, 2), (5, 18, 14), (5, 64, 69)])
 def test_points_are_what_the_synthesis_says(n, i, j):
     given, other = Family(n, damped=False)[i], Family(n, damped=False)[j]
@@ -117,6 +117,7 @@ def test_points_are_what_the_synthesis_says(n, i, j):
     assert synthesised(given, read(evidence.without), other) is Answer.NO
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "i", "j"), [(3, 7, 6), (4, 20, 8)])
 def test_inclusions_with_a_negative_grounded_part(n, i, j):
     """Generic models are included over the real numbers, by one solution whose grounded row is
@@ -183,7 +184,7 @@ def test_each_obstacle():
         )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [4, 5])
 def test_residues_change_their_signs_as_often_as_the_obstacle_says(n):
     """In floating point: every sum of two rows that the obstacle excludes against every row
@@ -230,6 +231,7 @@ def test_empty_fibre_is_bounded():
     assert isinstance(found.evidence, EmptyFibre) and confirms(found.evidence, family[1], family[4])
 
 
+@pytest.mark.full
 def test_whole_against_sum():
     """A sum of two rows in a chain without a gap: some have their zeros between the poles,
     some not.
@@ -254,6 +256,7 @@ def test_proof_of_swap_needs_simple_parts():
     )
 
 
+@pytest.mark.full
 def test_large_chains_stay_honest():
     """Whether 0-0-2-2-0-0 occurs with ports 3 and 5 of 7 is open: nothing is claimed that rests
     on it.
@@ -271,6 +274,7 @@ def test_large_chains_stay_honest():
     )
 
 
+@pytest.mark.full
 def test_false_evidence_is_refused():
     six, two = Family(4, damped=False)[6], Family(4, damped=False)[2]
     evidence = positive_finding(six, two).evidence
@@ -331,6 +335,7 @@ def test_interval_widens_with_open_points():
     assert wide[0] == low and wide[1] > high
 
 
+@pytest.mark.full
 def test_seed_moves_points_not_shares():
     six, two = Family(4, damped=False)[6], Family(4, damped=False)[2]
     findings = [positive_finding(six, two, Settings(seed=seed)) for seed in ("a", "b")]

@@ -62,7 +62,7 @@ def order(chain):
     return degree(cancel(at_one).as_numer_denom()[0], s)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [3, 5])
 def test_no_resonance_of_a_continued_fraction_is_ever_cancelled(n):
     """In others one is, at equal elements, of some of them."""

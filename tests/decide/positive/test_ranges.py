@@ -32,11 +32,13 @@ def test_a_renaming_maps_boxes():
     assert not confirms_within(BoxMap((("m1", "m1"),)), D3[2], D3[5], box)
 
 
+@pytest.mark.full
 def test_an_unbounded_parameter_does_not_fit_into_a_range():
     found = within_ranges(D3[1], D3[1], ranges({}, {"m1": (1, 2)}))
     assert found.share is Share.SOMETIMES and found.empirical.open == 0
 
 
+@pytest.mark.full
 def test_duality_within_ranges():
     box = ranges({}, {"m1": ("0.5", 5)})
     found = within_ranges(D3[1], D3[11], box)
@@ -80,6 +82,7 @@ def test_an_element_at_the_end_of_its_range_is_not_guessed():
     assert equivalent_within(given, point, other, {"m2": (mass / 2, 2 * mass)}) is Answer.YES
 
 
+@pytest.mark.full
 def test_without_a_positive_equivalent_there_is_none_in_a_box():
     from disting.decide.positive import positive_finding
 
@@ -91,6 +94,7 @@ def test_without_a_positive_equivalent_there_is_none_in_a_box():
     )
 
 
+@pytest.mark.full
 def test_families_stay_open_rather_than_guessed():
     found = within_ranges(
         Family(4, damped=False)[2], Family(4, damped=False)[6], ranges({}, {"m1": ("1e-6", "1e-5")})
@@ -103,6 +107,7 @@ def test_never_without_ranges_is_never_within():
     assert found.share is Share.NEVER
 
 
+@pytest.mark.full
 def test_a_fixed_value_may_be_special():
     """NEVER speaks of generic parameters; a box without width asks for special ones."""
     assert within_ranges(D3[7], D3[6], ranges({"m1": (1, 1)}, {})).share is Share.UNKNOWN
@@ -146,6 +151,7 @@ def test_unknown_names():
         within_ranges(Chain(2, damped=False), Chain(2, damped=False), ranges({"k99": (1, 2)}, {}))
 
 
+@pytest.mark.full
 def test_a_short_point_is_no_witness():
     """24 bits cannot tell m1 from 1 in this range: one point of twenty has m1 = 1, all other
     models have another m1.
@@ -158,6 +164,7 @@ def test_a_short_point_is_no_witness():
     assert not confirms_within(Points(at_one, other), chain, chain, narrow)
 
 
+@pytest.mark.full
 def test_what_is_found_rests_on_long_points_and_says_how_surely():
     """Listed solutions are bounded, words are exact; each free coordinate of a witness has 100
     bits at least.
@@ -177,6 +184,7 @@ def test_what_is_found_rests_on_long_points_and_says_how_surely():
     assert (exact.share, exact.certainty) == (Share.SOMETIMES, Certainty.PROVEN)
 
 
+@pytest.mark.full
 def test_a_witness_on_the_edge_of_a_range_proves_nothing_near_by():
     """m1 of the equivalent is m1 itself: at the end of the other range half of the models near
     by have none.
@@ -188,6 +196,7 @@ def test_a_witness_on_the_edge_of_a_range_proves_nothing_near_by():
     assert not confirms_within(Points(edge, found.evidence.without), chain, chain, box)
 
 
+@pytest.mark.full
 def test_a_parameter_that_both_ranges_fix_may_sit_on_the_edge():
     box = ranges({"m1": (1, 1)}, {"m1": (1, 1), "k12": (1, 2)})
     found = within_ranges(D3[1], D3[1], box)

@@ -126,6 +126,7 @@ def test_no_factor_is_claimed_where_nothing_is_covered():
     assert not always_real(*far)  # three springs between inner ports: no construction
 
 
+@pytest.mark.full
 def test_altered_real_evidence_is_refused():
     a, b = (Family(4, damped=False)[k] for k in (2, 6))
     found = compare(a, b, query=Query(View.REAL))

@@ -101,7 +101,7 @@ def test_first_row_with_an_open_word():
     assert known.upper - known.lower == {(0, 0, 2, 2, 0, 0)}
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("at_wall", [False, True])
 @pytest.mark.parametrize(
     ("n", "a", "b"),

@@ -109,6 +109,7 @@ def test_groups_agree_with_sympy(chain):
     assert poles_are_inseparable(chain.structure, "test")
 
 
+@pytest.mark.full
 def test_roots_in_pairs_are_not_inseparable():
     """An undamped chain in s: with z also -z is a pole, so the group is imprimitive."""
     model = receptances(Chain(4, damped=False).structure).free

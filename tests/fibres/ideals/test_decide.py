@@ -47,6 +47,7 @@ def test_open_pairs_of_three_damped_masses(i, j):
     assert found.evidence is not None and confirms(found.evidence, model(3, i), model(3, j))
 
 
+@pytest.mark.full
 def test_all_comparable_pairs_of_three_undamped_masses():
     """The 12 indistinguishable pairs of the published class, and no others among those of equal
     degrees and ranks.
@@ -66,6 +67,7 @@ def test_all_comparable_pairs_of_three_undamped_masses():
     )
 
 
+@pytest.mark.full
 def test_dual_chains_of_four_masses():
     found = decide(model(4, 1), model(4, 29), equal_rank=True)
     assert (
@@ -76,6 +78,7 @@ def test_dual_chains_of_four_masses():
     assert confirms(found.evidence, model(4, 1), model(4, 29))
 
 
+@pytest.mark.full
 def test_a_pair_of_four_masses_is_refuted():
     found = decide(model(4, 1), model(4, 8), equal_rank=True)
     assert (
@@ -96,6 +99,7 @@ def test_ground_dampers_of_one_end():
     )
 
 
+@pytest.mark.full
 def test_ground_dampers_of_a_force_and_sensor_apart():
     """A3: force at 1, sensor at 3: every two dampers are indistinguishable."""
     chains = [Chain(3, 0, 0, 1, 0, 3, damped=True, ground_dampers=(i,)) for i in (1, 2)]
@@ -176,6 +180,7 @@ def test_symmetry_in_the_order_of_the_models():
     assert there.membership is back.membership is Membership.EXCLUDED
 
 
+@pytest.mark.full
 def test_results_depend_on_the_seed_only():
     a, b = model(3, 1), model(3, 11)
     assert decide(a, b, equal_rank=True) == decide(a, b, equal_rank=True)

@@ -48,7 +48,7 @@ def rank_and_coefficients(dampers: tuple[int, ...], at: int) -> tuple[int, int]:
     return sympy.Matrix(coefficients).jacobian(names).subs(point).rank(), len(coefficients)
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("dampers", [(), (1,), (2,), (1, 2)])
 def test_a_grounded_part_is_full_exactly_where_its_rank_is_the_number_of_its_coefficients(dampers):
     full = all(len(set(rank_and_coefficients(dampers, at))) == 1 for at in (1, 2))

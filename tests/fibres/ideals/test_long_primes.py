@@ -45,6 +45,7 @@ def trees():
     return maps_of(*(of_network(network_of(text)) for text in TREES))
 
 
+@pytest.mark.full
 def test_large_trees_need_them():
     left, right = trees()
     assert safety_of_empty(left, right, True) < LEAST
@@ -52,6 +53,7 @@ def test_large_trees_need_them():
     assert safety_of_empty(left, right, True, LONG_BITS) > 101
 
 
+@pytest.mark.full
 def test_words_alone_say_that_they_give_no_bound():
     told = decide_matched(*trees(), equal_rank=True, limits=Limits(seconds=1.0))
     assert (told.membership, told.reason) == (Membership.UNKNOWN, NO_BOUND)

@@ -20,7 +20,7 @@ def pair(number):
     return [normalise(Family(3, True)[k].structure) for k in (1, number)]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("tangent", [True, False])
 @pytest.mark.parametrize(("number", "expected"), CASES)
 def test_over_the_rationals(number, expected, tangent):

@@ -152,6 +152,7 @@ def test_models_that_are_the_same_are_never_told_apart(damped, pairs):
     assert tried == pairs
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right"), [("4:2+b1", "4:2+b2"), ("4:3+b1", "4:3+b2"), ("4:6+b1+b2", "4:2+b3+b4")]
 )
@@ -178,7 +179,7 @@ def test_five_masses_that_were_left_open_are_decided_by_the_part_that_differs(le
     assert not Witness().confirms(found.evidence, "fibre", a, a)
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right", "part"),
     [("5:3+b1+b4", "5:3+b2+b4", ""), ("5:59+b1+b2+b3", "5:69+b1+b2+b4", "grounded")],
@@ -238,7 +239,7 @@ def alike(row, ranks):
     return row.grounded, row.distance, len(row.ground_dampers), ranks[row]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("masses", "damped"),
     [(2, True), (2, False), *(pytest.param(3, x, marks=pytest.mark.slow) for x in (True, False))],

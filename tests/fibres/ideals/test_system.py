@@ -91,6 +91,7 @@ def test_normalised_is_monic_linear_in_each_unknown_and_no_larger(chain):
     assert len(model.parameters) == len(chain.parameters)
 
 
+@pytest.mark.full
 def test_a_worked_example():
     s, m1, m2, k, d = sympy.symbols("s m1 m2 k12 d12")
     stiff = k + d * s

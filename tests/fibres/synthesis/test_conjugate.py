@@ -22,6 +22,7 @@ POLYNOMIALS = [
 ]  # fmt: skip
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("coefficients", POLYNOMIALS, ids=str)
 def test_the_symmetric_group_is_found_where_sympy_finds_it(coefficients):
     x = sympy.Symbol("x")

@@ -26,7 +26,7 @@ def undecided(c: Catalog) -> list[tuple[int, int]]:
     return [(i, j) for i, j, v in c.pairs(View.COMBINED) if v.relation is Relation.UNDECIDED]
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), [(3, False), (3, True), (4, False), (4, True)])
 def test_agrees_with_the_conditions_on_pairs_of_equal_rank(n: int, damped: bool) -> None:
     c = catalog(n, damped=damped)
@@ -53,6 +53,7 @@ def test_decides_every_open_pair(n: int, damped: bool) -> None:
     assert all(e.membership is not Membership.UNKNOWN for e in found.values())
 
 
+@pytest.mark.full
 def test_every_member_among_the_open_pairs_is_proven() -> None:
     for (n, damped), pairs in OPEN_MEMBERS.items():
         family = Family(n, damped)

@@ -15,6 +15,7 @@ def at_gap(n: int, g: int, damped: bool = True) -> Chain:
     return Chain(n, g, g, g + 1, g, g + 1, damped=damped)
 
 
+@pytest.mark.thin(8)
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize(("n", "g"), [(n, g) for n in range(2, 7) for g in range(n)])
 def test_dual_parameters_are_positive_and_have_the_same_transfer_function(

@@ -52,7 +52,7 @@ def test_a_planted_damped_solution_is_found_again(n: int) -> None:
         assert (planted.real, planted.positive) == (Answer.YES, Answer.YES)
 
 
-@pytest.mark.thin(3)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [2, 3, 4, 5])
 def test_foster_counts_all_real_and_positive(n: int) -> None:
     for chain in Family(n, damped=False):
@@ -68,6 +68,7 @@ def test_foster_counts_all_real_and_positive(n: int) -> None:
         assert all(s.positive is Answer.YES for s in found.solutions)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("n", [3, 4])
 def test_undamped_chains_with_distant_ports_have_families(n: int) -> None:
     for chain in Family(n, damped=False):

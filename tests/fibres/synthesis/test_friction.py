@@ -177,7 +177,7 @@ def test_numbers_of_solutions(chain: Chain, count: int) -> None:
     )
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(
     "chain",
     [

@@ -70,6 +70,7 @@ def test_figures_follow_light_and_dark(opened) -> None:  # type: ignore[no-untyp
     assert (light, paper()) == ("rgb(255, 255, 255)", "rgb(26, 33, 41)")
 
 
+@pytest.mark.full
 def test_reasons_open_on_demand(opened) -> None:  # type: ignore[no-untyped-def]
     reasons = opened.locator(".candidates details").first
     assert not reasons.locator("span").first.is_visible()
@@ -77,6 +78,7 @@ def test_reasons_open_on_demand(opened) -> None:  # type: ignore[no-untyped-def]
     assert "exceeds" in reasons.locator("span").first.inner_text()
 
 
+@pytest.mark.full
 def test_a_command_is_copied_whole(opened, selection: Selection) -> None:  # type: ignore[no-untyped-def]
     opened.context.grant_permissions(["clipboard-read", "clipboard-write"])
     button = opened.locator("#next .command button").first
@@ -88,6 +90,7 @@ def test_a_command_is_copied_whole(opened, selection: Selection) -> None:  # typ
     opened.context.clear_permissions()
 
 
+@pytest.mark.full
 def test_commands_break_between_their_words(opened) -> None:  # type: ignore[no-untyped-def]
     """On a phone --damped stays one word, and the command is read to its end."""
     opened.set_viewport_size({"width": 390, "height": 844})

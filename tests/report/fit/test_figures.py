@@ -45,6 +45,7 @@ def figure(selection: Selection, train: FrequencyResponse, test: FrequencyRespon
     )
 
 
+@pytest.mark.full
 def test_the_drive_is_found(selection: Selection) -> None:
     assert selection.selected is not None
     assert selection.selected.chain == DRIVE
@@ -90,6 +91,7 @@ def test_settings_of_the_user_neither_enter_nor_change(
     assert (before.svg, before.png, before.pdf) == (after.svg, after.png, after.pdf)
 
 
+@pytest.mark.full
 def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: FigureFiles) -> None:
     text = str(figure.inline)
     assert not any(tone.value in text for tone in VARIABLES)
@@ -103,6 +105,7 @@ def test_inline_figures_know_light_and_dark_and_their_own_ids(figure: FigureFile
     assert set(re.findall(r'(?:href="#|url\(#)([^")]*)', text)) <= set(ids)
 
 
+@pytest.mark.full
 def test_phones_get_a_narrow_drawing_with_letters_of_the_same_size() -> None:
     seen: list[bool] = []
     long = (
@@ -123,6 +126,7 @@ def test_phones_get_a_narrow_drawing_with_letters_of_the_same_size() -> None:
     assert lines[0] == 1 and lines[1] >= 2
 
 
+@pytest.mark.full
 def test_marks_of_one_measurement_carry_their_style_once(
     figure: FigureFiles, train: FrequencyResponse
 ) -> None:
@@ -135,6 +139,7 @@ def test_the_label_of_a_mark_is_its_frequency_and_damping() -> None:
     assert Mark("resonance", 76.66, 0.0185).label() == "△ 76.7 Hz\nζ 0.018"
 
 
+@pytest.mark.full
 def test_a_text_of_the_user_is_no_formula() -> None:
     made = draw_figure(
         "t", '"a" & <b>', (2, 2), lambda figure: heading(figure, "$\\undefined{ <b> $")
@@ -161,6 +166,7 @@ def test_marks_stay_in_the_band_and_where_something_shows() -> None:
     ]
 
 
+@pytest.mark.full
 def test_marks_and_asymptotes_are_those_of_the_drive(
     selection: Selection, train: FrequencyResponse
 ) -> None:
@@ -181,6 +187,7 @@ def test_marks_and_asymptotes_are_those_of_the_drive(
     )
 
 
+@pytest.mark.full
 def test_measured_phases_follow_the_model_without_jumps(
     selection: Selection, train: FrequencyResponse
 ) -> None:
@@ -203,6 +210,7 @@ def test_figures_of_the_parameters(selection: Selection) -> None:
     assert len(panels.svg) > 5000
 
 
+@pytest.mark.full
 def test_one_parameter_has_no_collinearity(selection: Selection) -> None:
     smallest = min(selection.candidates, key=lambda c: c.n_parameters)
     assert smallest.n_parameters == 1

@@ -86,6 +86,7 @@ def test_each_structure_has_its_commands(both: Selection) -> None:
     ]
 
 
+@pytest.mark.full
 def test_commands_run_as_they_are_printed(
     both: Selection, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -117,6 +117,7 @@ def test_residuals_are_those_of_data_and_model(
     assert wide.outside == 0.0 and first.outside < 0.2
 
 
+@pytest.mark.full
 def test_what_the_figures_show_is_said_with_sizes(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse
 ) -> None:
@@ -168,6 +169,7 @@ def test_distortion_lies_under_the_response(multisine: Selection, panel: Axes) -
     assert "Under the response" in " ".join(bands_in_words(multisine, multisine.test)[0])
 
 
+@pytest.mark.full
 def test_no_rounding_is_drawn_as_distortion(multisine: Selection, panel: Axes) -> None:
     (s,) = series_of(multisine.described, multisine.task, multisine.test, None)
     assert s.measured.distortion is not None

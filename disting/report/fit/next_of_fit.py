@@ -1,15 +1,11 @@
-"""disting next with the file of a fit: what to measure next to distinguish the structures that it
-left.
-"""
+"""Advice after a fit: the measurement that distinguishes the structures that it left."""
 
-import argparse
 import shlex
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 
-from disting.cli.output import complain
 from disting.errors import InputError, enumeration
 from disting.experiments.menu import Costs
 from disting.files import Format
@@ -28,10 +24,12 @@ from disting.report.fit.left_words import (
 )
 from disting.report.fit.plan_words import larger_in_words
 from disting.verdict.engine import Engine, Progress
+from disting.verdict.menu_text import BRIEF, DOMAIN, describe_menu, menu_text
 from disting.verdict.next_experiments import Menu, menu_for
-from disting.verdict.next_words import CSV_COLUMNS, to_dict
+from disting.verdict.next_words import CSV_COLUMNS, rows, to_dict
 
 AGAIN = "then fit the new measurement, NEW, together with these data:"
+Table = Iterator[Sequence[str]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +55,26 @@ class NetworkAdvice:
             texts.append("no other candidate gives the same responses as one of them")
         return [*texts, *larger_in_words(self.larger, self.noise[0])]
 
+    @property
+    def first(self) -> str:
+        """The first sentence."""
+        return self.sentences[0]
+
+    @property
+    def warnings(self) -> list[str]:
+        """There are none: a fit of networks that explains nothing has no advice."""
+        return []
+
+    @property
+    def text(self) -> str:
+        """The answer and the menu of each group."""
+        return "\n\n".join([*self.sentences, *map(menu_text, self.groups)])
+
+    def table(self) -> Table:
+        """Yield every experiment at every pair of places, the names of the columns first."""
+        yield CSV_COLUMNS
+        yield from (row for group in self.groups for row in rows(group))
+
     def to_dict(self) -> dict[str, object]:
         """Plain data, ready for JSON."""
         return {
@@ -67,19 +85,67 @@ class NetworkAdvice:
         }
 
 
-def network_advice(
-    options: argparse.Namespace,
-    costs: Costs,
-    engine: Engine,
-    executor: Executor | None,
-    progress: Progress,
-) -> NetworkAdvice | None:
-    """Recommended next measurements for the networks that remain after the named fit; None for a
-    fit of chains. Raises InputError.
+@dataclass(frozen=True, slots=True)
+class AdviceOnChains:
+    """All that is known of the chains that a fit left, in words, as rows and as plain data."""
+
+    lead: ChainAdvice
+
+    @property
+    def first(self) -> str:
+        """The first sentence; "" where the file does not state the lines of its data."""
+        return first_sentence(self.lead)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Sentences on what limits the advice."""
+        return list(_warnings(self.lead.source, self.lead.named))
+
+    @property
+    def text(self) -> str:
+        """The recommended first measurement, the structures that remain, and the menus for those
+        that cannot be distinguished.
+        """
+        lead = self.lead
+        if len(lead.left) == 1:
+            return self.first
+        first = [self.first, ""] if lead.seen else []
+        menus = [line for group in lead.groups for line in ("", *describe_menu(group, brief=True))]
+        domain = ["", DOMAIN.format(place="mass"), BRIEF] if lead.groups else []
+        again = repeat_command(lead)
+        last = ["", AGAIN, f"  {again}"] if again else []
+        own = [*set_in_words(lead), "", *measured_in_words(lead)]
+        return "\n".join([*first, *own, *domain, *menus, *last])
+
+    def table(self) -> Table:
+        """Yield every experiment at every pair of places, with its result for the data of the fit,
+        the names of the columns first.
+        """
+        yield (*CSV_COLUMNS, *MEASURED_COLUMNS)
+        yield from left_rows(self.lead)
+
+    def to_dict(self) -> dict[str, object]:
+        """Plain data, ready for JSON."""
+        return left_to_dict(self.lead) | {
+            "first": self.first,
+            "again": repeat_command(self.lead),
+        }
+
+
+def advise_fit(
+    source: str, costs: Costs, engine: Engine, executor: Executor | None, progress: Progress
+) -> NetworkAdvice | AdviceOnChains:
+    """Recommended next measurements for the structures that the fit of a file left. Raises
+    InputError.
     """
-    source = _source(options)
-    if not is_of_networks(Path(source)):
-        return None
+    if is_of_networks(Path(source)):
+        return _advise_networks(source, costs, engine, executor, progress)
+    return AdviceOnChains(_advise_chains(source, costs, engine, executor, progress))
+
+
+def _advise_networks(
+    source: str, costs: Costs, engine: Engine, executor: Executor | None, progress: Progress
+) -> NetworkAdvice:
     every = left_by(Path(source))
     left = [survivor for survivor in every if not survivor.contains]
     groups = [
@@ -98,32 +164,15 @@ def network_advice(
     return NetworkAdvice(source, noise, tuple(groups), larger)
 
 
-def _source(options: argparse.Namespace) -> str:
-    """The file; raises InputError for arguments in addition to it."""
-    source = next(name for name in options.models if name.lower().endswith(".json"))
-    if len(options.models) > 1 or options.damped is not None:
-        raise InputError(
-            f"{source} names its structures itself: remove other names and --damped or --undamped"
-        )
-    return str(source)
-
-
-def chain_advice(
-    options: argparse.Namespace,
-    costs: Costs,
-    engine: Engine,
-    executor: Executor | None,
-    progress: Progress,
+def _advise_chains(
+    source: str, costs: Costs, engine: Engine, executor: Executor | None, progress: Progress
 ) -> ChainAdvice:
-    """All that is known of the structures that the named fit left; raises InputError."""
-    source = _source(options)
     named = named_by(Path(source))
     if len(named.left) < 2 and not named.explained:
         raise InputError(
             f"none of the structures of {source} explains its data, so the fit leaves no set:"
             " name the structures to distinguish"
         )
-    _warn(source, named)
     standing = stood(named.left, engine, progress)
     groups = []
     for members in standing.groups:
@@ -134,37 +183,15 @@ def chain_advice(
     return ChainAdvice(source, named, standing, tuple(groups), predicted, costs)
 
 
-def _warn(source: str, named: FitRecord) -> None:
+def _warnings(source: str, named: FitRecord) -> Iterator[str]:
     if not named.explained:
-        complain(
+        yield (
             f"warning: none of the structures of {source} explains its data: the true one may not"
             " be among them"
         )
     if named.responses > 1:
-        complain(
+        yield (
             f"warning: {source} has {named.responses} responses; the menu starts from the first"
             " one only: what it calls sufficient is sufficient; the other responses may already"
             " have decided what it leaves open"
         )
-
-
-def table(lead: ChainAdvice) -> Iterator[Sequence[str]]:
-    """Every experiment at every pair of places, with its result for the data of the fit."""
-    yield (*CSV_COLUMNS, *MEASURED_COLUMNS)
-    yield from left_rows(lead)
-
-
-def plain(lead: ChainAdvice) -> dict[str, object]:
-    """Plain data, ready for JSON."""
-    return left_to_dict(lead) | {"first": first_sentence(lead), "again": repeat_command(lead)}
-
-
-def in_text(lead: ChainAdvice, menus: Sequence[str]) -> str:
-    """Text of the recommended first measurement, the structures that remain, and the menus for
-    those that cannot be distinguished.
-    """
-    if len(lead.left) == 1:
-        return first_sentence(lead)
-    first = [first_sentence(lead), ""] if lead.seen else []
-    last = ["", AGAIN, f"  {repeat_command(lead)}"] if repeat_command(lead) else []
-    return "\n".join([*first, *set_in_words(lead), "", *measured_in_words(lead), *menus, *last])
