@@ -29,7 +29,7 @@ from disting.network.notation import network_of, notations_of, values_in
 from disting.report.network_drawing import scene_of
 from disting.report.scene import PAGE_PALETTE, Scene, body, number
 from disting.store import Store
-from disting.verdict.comparison import identifiability
+from disting.verdict.comparison import compare, identifiability
 from disting.verdict.engine import Engine
 from disting.verdict.identifiable import Identified
 from disting.verdict.next_experiments import menu_for
@@ -196,9 +196,16 @@ def rows_of(model: Chain | AnyModel) -> Iterator[Lookalikes]:
     """
     network, chain = network_behind(model), as_chain(model)
     if chain is not None:
-        yield from filter(None, [lookalikes.of_chain(chain)])
+        rows = (lookalikes.of_chain(chain), lookalikes.of_ground_dampers(chain, relation_of))
+        yield from filter(None, rows)
     if network is not None:
         yield from filter(None, [lookalikes.of_network(network)])
+
+
+def relation_of(left: Chain, right: Chain) -> Relation:
+    """Return the relation of two chains over positive parameters."""
+    with Store.open(None) as store:
+        return compare(left, right, engine=Engine(store=store)).relation
 
 
 def _row(model: Chain | AnyModel, found: Lookalikes, request: Json) -> Json:
@@ -235,7 +242,12 @@ def command_for_alike(model: Chain | AnyModel, found: Lookalikes, request: Json)
     if found.family.isdecimal():
         chain = as_chain(model)
         damping = [] if chain is None or chain.damped else ["--undamped"]
-        return command("equivalents", found.member, "--to", found.family, *damping, "--set", given)
+        to = (
+            next(iter(found.others), found.family)
+            if chain and chain.ground_dampers
+            else found.family
+        )
+        return command("equivalents", found.member, "--to", to, *damping, "--set", given)
     return command("equivalents", *words_of(request), "--family", found.family, "--set", given)
 
 

@@ -6,12 +6,13 @@ file as they are written, since making a family anew takes seconds.
 """
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
 from disting.catalogs.catalog import catalog
+from disting.catalogs.dampers import SHIPPED_SIZES as DAMPER_SIZES, damper_catalog
 from disting.catalogs.files import SHIPPED_SIZES
 from disting.catalogs.network_files import SHIPPED, in_order, name_of
 from disting.files import intact_text, shipped_folder
@@ -21,6 +22,8 @@ from disting.network.isomorphism import is_same_network
 from disting.network.network import Network
 from disting.network.notation import network_of
 from disting.verdict.result import Relation, View
+
+Decide = Callable[[Chain, Chain], Relation]
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +96,38 @@ def of_chain(chain: Chain) -> Lookalikes | None:
     return Lookalikes(
         str(n), f"Chains of {n} masses, {damping}", len(shipped.family), f"{n}:{number}", others
     )
+
+
+def of_ground_dampers(chain: Chain, decide: Decide) -> Lookalikes | None:
+    """Return the row of a chain with ground dampers among all of its size with any set of them;
+    None of others.
+
+    The shipped verdicts are over complex parameters: what these distinguish is distinguishable over
+    positive ones too. For the few others `decide` gives the relation over positive parameters.
+
+    >>> from disting import compare
+    >>> from disting.model.names import read_together
+    >>> (chain,) = read_together(["4:3+b2"])
+    >>> found = of_ground_dampers(chain, lambda a, b: compare(a, b).relation)
+    >>> found.size, found.member, dict(found.others)
+    (464, '4:3+b2', {'4:7+b3': <Relation.INDISTINGUISHABLE: 'indistinguishable'>})
+    """
+    plain = replace(chain, ground_dampers=(), quantity=Quantity.ACCELERATION)
+    simple = Chain(*chain.indices, damped=chain.damped)
+    if not chain.ground_dampers or chain.n_masses not in DAMPER_SIZES or plain != simple:
+        return None
+    shipped = damper_catalog(chain.n_masses, damped=chain.damped)
+    if plain not in shipped.family:
+        return None
+    at = shipped.place((shipped.family.number(plain), chain.ground_dampers))
+    others = dict[str, Relation]()
+    for i, other in enumerate(shipped.found.chains):
+        if i != at and shipped.found.look_up(at, i)[0] is not Relation.DISTINGUISHABLE:
+            others[shipped.text(i)] = decide(replace(other, quantity=chain.quantity), chain)
+    kept = {n: r for n, r in others.items() if r is not Relation.DISTINGUISHABLE}
+    damping = "damped" if chain.damped else "undamped"
+    title = f"Chains of {chain.n_masses} masses, {damping}, with dampers to the ground"
+    return Lookalikes(str(chain.n_masses), title, len(shipped), shipped.text(at), kept)
 
 
 def _families_for(network: Network) -> Iterator[str]:

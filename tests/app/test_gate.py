@@ -1,10 +1,9 @@
 """Who may ask: every wrong key, host and origin is refused before anything is answered."""
 
-import asyncio
-
 import pytest
 
 from disting.app.gate import Gate, Keys, page_policy
+from tests.app.loops import run
 
 KEYS = Keys(8000, "token", "secret")
 OWN = {"host": "127.0.0.1:8000", "origin": "http://127.0.0.1:8000", "cookie": "disting-8000=secret"}
@@ -31,7 +30,7 @@ def answered(headers: dict | list, method="POST", path="/api/x", query=""):
         "query_string": query.encode(),
         "headers": raw,
     }
-    asyncio.run(Gate(_inner, KEYS)(scope, None, send))
+    run(Gate(_inner, KEYS)(scope, None, send))
     start, body = sent
     return start["status"], {n.decode(): v.decode() for n, v in start["headers"]}, body["body"]
 

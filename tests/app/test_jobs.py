@@ -9,6 +9,7 @@ import pytest
 from disting.app.interface import CALLS
 from disting.app.jobs import Pool
 from disting.app.workers import Failure, Setting
+from tests.app.loops import run
 
 pytestmark = pytest.mark.full
 STAR = {"text": "1=2, 2=3, 2=4, 2=5; F1; S1"}  # takes a minute
@@ -34,7 +35,7 @@ async def leave_and_ask(folder: Path) -> tuple[int, dict]:
 
 
 def test_a_call_whose_client_is_gone_is_ended_and_the_next_one_answered(tmp_path: Path) -> None:
-    status, answer = asyncio.run(leave_and_ask(tmp_path))
+    status, answer = run(leave_and_ask(tmp_path))
     assert status == 500  # ended; one that was too slow has 504
     assert answer["count"].startswith("13 parameters")
 
@@ -52,4 +53,4 @@ async def leave_before(folder: Path) -> int:
 
 
 def test_a_call_whose_client_goes_before_a_worker_is_free_is_not_begun(tmp_path: Path) -> None:
-    assert asyncio.run(leave_before(tmp_path)) == 499
+    assert run(leave_before(tmp_path)) == 499

@@ -220,6 +220,19 @@ def test_the_look_up_agrees_with_the_command(
         assert f"{count['sometimes']} for some" in text.splitlines()[0]
 
 
+def test_a_machine_with_friction_to_the_ground_is_looked_up_too(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    (row,) = find_alike({"text": "4:3+b2"})["rows"]
+    assert [(x["name"], x["relation"]) for x in row["others"]] == [("4:7+b3", "indistinguishable")]
+    assert row["sentence"].startswith("1 of 463 other models is not always")
+    _, *words = shlex.split(row["command"])
+    assert "4:7+b3" in run_command(capsys, *words)
+    (row,) = find_alike({"text": "1=2=3, 3-#; F1; S1"})["rows"]
+    assert row["sentence"] == "All other 87 models are distinguishable from it."
+    assert find_alike({"text": "1=2, 1-#; F1; S1"})["rows"] == []
+
+
 def test_what_separates_two_chains_is_what_the_catalogue_says() -> None:
     answer = separate({"text": "3:1", "others": ["3:11"]})
     assert answer["sentence"].startswith("Separates all of them: a sensor at any further mass")
