@@ -2071,19 +2071,35 @@ def next_file(table, name, lines):
                 table.add("next", kind, "gains, classes", searched("not repeated"), f"{name}:{k}")
 
 
+ORDERS = {"position": 0, "velocity": 1, "acceleration": 2}
+
+
 def verdict_model(record):
-    """A model of a single verdict file."""
+    """A model of a single verdict file, by its content: its name is that of a person."""
     if "n_masses" in record:
         keys = ("n_masses", "gap", "act_minus", "act_plus", "meas_minus", "meas_plus", "damped")
-        order = {"position": 0, "velocity": 1, "acceleration": 2}[record["sensor"]]
-        return chain(
-            *(record[k] for k in keys),
-            tuple(record["ground_dampers"]),
-            record["lag"],
-            record["dead_time"],
-            order,
-        )
-    return network(record["network"] if "network" in record else record["name"])
+        more = tuple(record["ground_dampers"]), record["lag"], record["dead_time"]
+        return chain(*(record[k] for k in keys), *more, ORDERS[record["sensor"]])
+    if "network" in record and "quantity" not in record:
+        return network(record["network"])
+    if "flows" in record:
+        if record.keys() - {"name", "flows", "input", "output"}:
+            raise NotImplementedError("contents at first, known parameters")
+        parts = [element("f", f"a{i}{j}", i, j) for i, j in record["flows"]]
+        (given,), (seen,) = record["input"], record["output"]
+        return model(json.dumps(record), parts, (given, 0), (seen, 0), 0, 1)
+    parts = [listed_element(*item) for item in record["elements"]]
+    (force,) = record.get("force") or record["port"]
+    (sensor,) = record.get("sensor") or record["port"]
+    order = ORDERS[record["quantity"]] if "quantity" in record else 0
+    return model(json.dumps(record), parts, tuple(force), tuple(sensor), order)
+
+
+def listed_element(name, a, b=0, more=""):
+    """An element such as ["k12", 1, 2]; `more`: the exponent of a constant phase element."""
+    if name[0] not in "mjdbkRLCWP" or (more and name[0] != "P"):
+        raise NotImplementedError("compartments as a list, gears")
+    return element(name[0], name, a, b, more or "n" + name[1:] if name[0] == "P" else "")
 
 
 def verdict_file(table, name, told):
@@ -2096,7 +2112,7 @@ def verdict_file(table, name, told):
             raise ValueError("a chain in other names")
         if any(e.kind == "P" for m in (a, b) for e in m.elements):
             raise ValueError("exponents of constant phase elements")
-    except UNREADABLE as why:
+    except (NotImplementedError, *UNREADABLE) as why:
         found = searched(f"not known here: {unreadable(why)}"[:90])
         return table.add("verdict", "models", "", found, name)
     half = any(e.kind == "W" for m in (a, b) for e in m.elements)

@@ -513,6 +513,24 @@ def test_a_single_verdict_says_no_more_than_its_evidence(check):
         assert is_wrong(check, CELLS, REPLACED, relation)
 
 
+def test_a_single_verdict_is_on_its_elements_not_on_its_names(check):
+    """A name is what a person likes; a machine's quantity is a field."""
+    elements = [["R0", 1, 2], ["R1", 2, 0], ["C1", 2, 0]]
+    given = {"name": "cell", "elements": elements, "port": [[1, 0]]}
+    assert not is_wrong(check, [given, CELLS[1]], EXPLICIT)
+    other = given | {"name": "R0-p(R1,C1)", "elements": [["R0", 1, 2], ["R1", 1, 2], ["C1", 2, 0]]}
+    assert is_wrong(check, [other, CELLS[1]], EXPLICIT)
+    machine = {"name": "x", "elements": [["m1", 1], ["m2", 2], ["k12", 1, 2]], "force": [[1, 0]],
+               "sensor": [[1, 0]], "quantity": "acceleration"}  # fmt: skip
+    pairs = {"kind": "renaming", "pairs": [[n, n] for n in ("m1", "m2", "k12")], "symmetries": []}
+    assert not is_wrong(check, [machine, {"network": "1~2; F1; S1"}], pairs)
+    slow = machine | {"quantity": "velocity"}
+    assert is_wrong(check, [slow, {"network": "1~2; F1; S1"}], pairs)
+    drug = {"name": "drug", "flows": [[1, 2], [2, 0]], "input": [1], "output": [2]}
+    found, wanted = check.verdict_model(drug), check.network("1>2, 2>0; in 1; out 2")
+    assert found.elements == wanted.elements and found.fixed == wanted.fixed == 1
+
+
 def test_a_theorem_is_one_on_the_same_quantity(check):
     models, theorem = [CHAIN, CHAIN], {"certainty": "theorem"}
     assert not is_wrong(check, models, SYMMETRY, **theorem)
