@@ -179,6 +179,7 @@ def test_what_is_printed_can_be_typed_in(one):
     assert eval(repr(one), {"Experiment": Experiment}) == one
 
 
+@pytest.mark.full
 @given(CHAINS)
 def test_a_chain_prints_its_name_and_its_drawing(chain):
     line = repr(chain)

@@ -63,6 +63,7 @@ def test_models_that_look_alike_have_texts_and_keys_of_their_own():
     assert len({profile_key(m, Representation.TF, 0, Settings()) for m in models}) == 3
 
 
+@pytest.mark.full
 def test_all_chains_of_a_size_differ_in_text():
     chains = [*Family(4, damped=False), *Family(4, damped=True)]
     assert all(full_text(a) != full_text(b) for a, b in combinations(chains, 2))

@@ -61,6 +61,7 @@ def said(capsys, command: str) -> str:
     return capsys.readouterr().out
 
 
+@pytest.mark.full
 def test_the_advice_is_that_of_the_command_and_stays_with_the_fit(inside, capsys):
     answer = advise({"fit": 1}, silent, inside)
     validate(answer, CALLS["next"].schema["properties"]["answer"])

@@ -78,6 +78,7 @@ def table_by(interpreter, flags, seed, *paths):
     return done.stdout.rpartition("\n\n")[0] if done.returncode != 127 else ""
 
 
+@pytest.mark.full
 def test_packages_of_the_site_and_hashes_of_texts_change_nothing():
     path = shipped_folder() / "networks-machines-2.jsonl"
     flags = (["-I", "-S"], "0"), (["-I"], "1"), ([], "2")

@@ -235,6 +235,7 @@ def test_the_legend_fits_a_terminal(domain):
     assert max(map(len, legend(domain).splitlines())) <= 80
 
 
+@pytest.mark.full
 def test_a_whole_family_says_that_positive_parameters_are_not_asked(capsys):
     assert main(["dampers", "2", "--no-cache", "--undamped"]) == 0
     assert (

@@ -39,6 +39,7 @@ def test_both_senses_are_told(records):
     assert not list(false_evidence(stored))
 
 
+@pytest.mark.full
 def test_false_inclusions_are_found_out(records):
     def other_evidence(told):
         told["closure"]["evidence"] = {"kind": "counts", "left": [2, 2], "right": [1, 2]}

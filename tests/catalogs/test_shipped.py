@@ -174,6 +174,7 @@ def test_evidence_of_an_unknown_name_is_damage_when_it_is_read(tmp_path):
         catalog(3, folder=tmp_path, damped=False).to_json()
 
 
+@pytest.mark.full
 def test_writing_leaves_no_partial_files(tmp_path):
     paths = write([build(2, damped=False, engine=Engine())], tmp_path)
     assert [p.name for p in paths] == ["chains-2-undamped.jsonl", "provenance.json"]

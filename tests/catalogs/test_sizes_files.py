@@ -159,6 +159,7 @@ def test_false_evidence_is_found(both: dict[bool, SizesCatalog]) -> None:
     ]
 
 
+@pytest.mark.full
 def test_the_papers_views_and_other_models_are_refused(both: dict[bool, SizesCatalog]) -> None:
     with pytest.raises(InputError, match="no verdicts of the view tf"):
         both[False].verdict(1, 2, View.TF)

@@ -104,6 +104,7 @@ def disting_with_small_files(*arguments):
     )
 
 
+@pytest.mark.full
 @pytest.mark.skipif(os.name != "posix", reason="named pipes are of POSIX")
 def test_pipes_and_links_stay_what_they_are(tmp_path):
     pipe, link, there = tmp_path / "pipe", tmp_path / "link.csv", tmp_path / "there.csv"

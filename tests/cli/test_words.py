@@ -109,6 +109,7 @@ def test_a_long_list_is_told_at_once_and_says_what_it_leaves_away() -> None:
     assert told.count("[1") >= 574 and "· not computed (--ranks)" in told
 
 
+@pytest.mark.full
 def test_names_of_a_size_that_is_known_are_arguments() -> None:
     short, whole = called("compare", "3:1", "A4"), called("compare", "3:1", "3:4")
     assert short.stdout == whole.stdout and short.returncode == 0

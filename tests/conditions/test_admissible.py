@@ -308,7 +308,7 @@ def test_the_page_says_which_positive_models_have_equivalents(small):
     assert "Every {L} with positive parameters has a positive equivalent {R}." in text
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("n", "i", "j"), [(3, 1, 11), (4, 1, 5), (4, 5, 29)])
 def test_real_parameters_of_either_sign_have_real_equivalents(n, i, j):
     """Independent: the fibre in ball arithmetic at real points with negative elements."""
@@ -326,6 +326,7 @@ def test_real_parameters_of_either_sign_have_real_equivalents(n, i, j):
     assert seen > 8
 
 
+@pytest.mark.full
 def test_odd_fibres_rest_on_the_finding_over_complex_parameters():
     """Undamped chains have a stronger reason; counts serve where there is none."""
     family = Family(3, damped=False)

@@ -72,6 +72,7 @@ def test_proportional_damping_makes_more_structures_equivalent():
     assert found.proportional
 
 
+@pytest.mark.full
 def test_planted_equivalent_with_split_roots_is_found_again():
     """Model 6, undamped, is one of two that model 1 has for these values; a third structure
     leads there.
@@ -233,6 +234,7 @@ def models(draw):
     return chain, {name: draw(numbers) for name in chain.parameters}
 
 
+@pytest.mark.full
 @settings(max_examples=40, deadline=None)
 @given(models())
 def test_the_original_is_always_among_its_own_equivalents(model):

@@ -138,6 +138,7 @@ def stored():
     return json.loads(json.dumps(verdict_file("3:1", "3:1", experiments=[AS_IT_IS, pair])))
 
 
+@pytest.mark.full
 def test_a_stored_verdict_has_its_brakes(stored):
     assert stored["experiments"][1]["left"]["brakes"] == [[1, "1/2"]]
     assert "brakes" not in stored["experiments"][0]["left"]  # as files had it before there were any

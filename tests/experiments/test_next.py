@@ -153,6 +153,7 @@ def test_nothing_on_a_menu_of_locks_and_inertias_is_enough_by_symmetry(engine):
     assert said.relation is Relation.INDISTINGUISHABLE
 
 
+@pytest.mark.full
 def test_costs_change_what_is_least(engine):
     found = menu_for(named(A, 1, 11), engine, costs=Costs.read("sensor=5,move=4,lock=0.5"))
     assert found.kinds == (LOCK, INERTIA, SENSOR, FORCE)

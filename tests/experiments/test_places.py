@@ -88,6 +88,7 @@ def test_more_things_than_the_right_model_has():
         )
 
 
+@pytest.mark.full
 def test_one_second_sensor_anywhere_settles_the_first_pair():
     for i in (1, 2, 3):
         found = compare_everywhere(A[1], A[11], [f"sensor={i}"], query=COMPLEX)

@@ -119,7 +119,7 @@ def test_exports_leave_out_what_the_data_do_not_determine():
     assert models[0].undetermined == ()
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 2))])
 def test_networks_that_contain_one_that_is_left_are_left(seed):
     texts = (
         "R0-C1",

@@ -135,7 +135,7 @@ def test_look_alikes_are_those_of_the_theorems():
     assert kinds(Chain(3, damped=True, ground_dampers=(3,))) == []
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize(("masses", "damped"), [(2, False), (3, False), (4, False), (2, True)])
 def test_engine_confirms_the_theorem_of_the_free_base(masses, damped):
     """The general engine knows nothing of the theorem."""
@@ -157,7 +157,7 @@ def all_dampers(masses, damped, number):
     ]
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("damped", [False, True])
 @pytest.mark.parametrize("masses", [2, 3, pytest.param(4, marks=pytest.mark.slow)])
 def test_engine_confirms_what_is_said_of_the_elastic_base(masses, damped):

@@ -1,5 +1,7 @@
 """General models through the package's own `compare` and `findings`, alone and against chains."""
 
+import pytest
+
 from disting import Chain, Family, Model, Relation, compare, findings
 
 RIGID = Model.from_transfer_function(["1"], ["m"], name="one mass")  # acceleration of one mass
@@ -14,6 +16,7 @@ def test_a_model_and_the_chain_it_describes_are_indistinguishable():
     )
 
 
+@pytest.mark.full
 def test_a_chain_comes_first_or_second():
     family = Family(2, damped=True)
     spring = Model.from_transfer_function(

@@ -121,6 +121,7 @@ def test_messages_are_in_plain_words(room: str) -> None:
     assert {where: phrases for where, phrases in found.items() if phrases} == {}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("kind", "read"), [("html", page_texts), ("js", script_texts), ("json", schema_texts)]
 )

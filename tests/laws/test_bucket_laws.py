@@ -102,6 +102,7 @@ def test_grades_are_those_of_the_verdicts(damped):
         )
 
 
+@pytest.mark.full
 def test_the_order_of_the_models_does_not_matter():
     shuffled = list(family(3, True))
     random.Random(1).shuffle(shuffled)

@@ -120,6 +120,7 @@ def test_it_is_the_last_to_report(pair, markov):
     assert bool(found[-1].finding.evidence) == (found[-1].relation is not Relation.UNDECIDED)
 
 
+@pytest.mark.full
 @quick
 @given(pair=similar_pairs().map(rigid))
 def test_the_mirrored_pair_has_the_mirrored_verdict(pair):

@@ -126,6 +126,7 @@ def near(data, chain, **values):
     return Estimate(chain, found, j), task
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("order", [0, 1])
 @pytest.mark.parametrize(("delay", "dead_time"), [(0, 0.0), (1, 2.5e-4)])
 def test_a_hold_that_explains_the_actuator_is_found(order, delay, dead_time):

@@ -158,6 +158,7 @@ def test_files_of_instruments_are_no_drives(file):
     assert done.returncode == 1 and "--models 'R0-p(R1,C1)'" in done.stdout
 
 
+@pytest.mark.full
 def test_a_simulated_circuit_is_no_drive(tmp_path):
     path = tmp_path / "cell.csv"
     called("simulate", "R0-p(R1,C1)", "--set", "R0=1,R1=2,C1=0.01", "--csv", path)

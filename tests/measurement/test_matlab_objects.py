@@ -42,6 +42,7 @@ def stored(tmp_path, objects, **variables):
     return path
 
 
+@pytest.mark.full
 def test_the_real_stage_is_read_in_the_unit_that_its_numbers_show():
     path = measured_data("fditools_stage_frd.mat")
     found = read(path, response="frf.Pp[1]", quantity="position")

@@ -132,6 +132,7 @@ def test_time_series_of_a_matlab_file(tmp_path):
         read_time_series(path, "u", "y")
 
 
+@pytest.mark.full
 def test_matlab_7_3_files_of_h5py(tmp_path):
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "a.mat"

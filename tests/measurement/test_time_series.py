@@ -147,6 +147,7 @@ def test_an_input_that_does_not_repeat_needs_welch():
         TimeSeries(u, filtered(u), RATE).response()
 
 
+@pytest.mark.full
 @given(st.integers(40, 400), st.integers(2, 7), st.integers(0, 10**6), st.floats(0, 0.1))
 def test_the_shortest_period_is_detected_under_noise(period, periods, seed, noise):
     source = np.random.default_rng(seed)

@@ -142,6 +142,7 @@ def wandering(seed, periods):
     return TimeSeries(u, y, 1000.0), exact
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("periods", [1, 2, 4])
 def test_a_position_that_wanders_leaks_little_into_the_response(periods):
     """A random torque ends the position elsewhere in each period: the jump leaked into all lines."""

@@ -114,6 +114,7 @@ def test_embeddings_are_the_monomorphisms_of_graphs(damped):
     assert told > 80
 
 
+@pytest.mark.full
 @quick
 @given(chains(dead_time=True))
 def test_every_structure_is_a_part_of_itself(chain):

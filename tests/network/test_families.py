@@ -354,6 +354,7 @@ def test_a_family_that_does_not_exist(name):
         network_of(f"{name}:1")
 
 
+@pytest.mark.full
 def test_other_numbers_are_families_too():
     whole = family_of("circuits-6")
     assert (whole.is_shipped, whole.in_brief) == (False, False)

@@ -234,6 +234,7 @@ def test_a_function_with_other_exponents_is_seen():
     assert may_be_others([(twisted, {(0, 0): (one,)})], Powers(weights=(("n1", 5),)))
 
 
+@pytest.mark.full
 def test_a_capacitor_a_resistor_and_a_warburg_element_are_limits():
     for text, exponent in (("R0-p(R1,C1)", "1"), ("R0-p(R1,W1)", "1/2"), ("R0-p(R1,R2)", "0")):
         found = compare("R0-p(R1,P1)", text)

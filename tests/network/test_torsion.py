@@ -91,6 +91,7 @@ def test_a_drive_train_is_a_chain_with_a_gear():
     )  # fmt: skip
 
 
+@pytest.mark.full
 def test_a_file_is_read_alone_and_in_a_list(tmp_path):
     data = train("Motor.Rotor", "Pump.Impeller")
     alone, listed = tmp_path / "mill.json", tmp_path / "list.json"

@@ -125,6 +125,7 @@ def test_several_valleys_of_the_rival_do_not_lead_astray():
     assert found.run.noncentrality >= (1 - KEPT) * found.optimum.noncentrality * (1 - CLOSE)
 
 
+@pytest.mark.full
 def test_cuts_of_very_different_sizes_have_a_bound_that_holds():
     """Such cuts, of a rival whose elements run to limits, may stop the simplex method."""
     source = np.random.default_rng(0)

@@ -118,6 +118,7 @@ def test_counts_are_those_of_the_classes(found: DamperFamily) -> None:
     assert exact == [(r, looked_up.count(r)) for r in ("distinguishable", "indistinguishable")]
 
 
+@pytest.mark.full
 def test_what_is_undecided_is_said(found: DamperFamily, text: str) -> None:
     assert "undecided</strong>" not in text and "Undecided</h3>" not in text
     opened = damper_page(_opened(found))
@@ -126,6 +127,7 @@ def test_what_is_undecided_is_said(found: DamperFamily, text: str) -> None:
     assert counts(_opened(found))[-1].number == 64
 
 
+@pytest.mark.full
 def test_the_thumbnail_shows_what_any_two_sets_are(found: DamperFamily) -> None:
     fields = {(x + k, y): r for r, x, y, count in runs(_opened(found)) for k in range(count)}
     relations: dict[tuple[int, int], set[Relation]] = {}

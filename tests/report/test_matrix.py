@@ -82,6 +82,7 @@ def test_a_wide_figure_has_a_slide_for_each_view() -> None:
     assert image.size == (1920, 1080)
 
 
+@pytest.mark.full
 def test_the_thumbnail_covers_what_is_not_distinguishable() -> None:
     shipped = catalog(4, damped=True)
     cell = 168 / 28

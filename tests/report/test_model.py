@@ -46,6 +46,7 @@ def test_every_indistinguishable_model_is_named_and_no_other(
         assert_names(shipped, number, outline)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("number", "sometimes"), [(2, (6,)), (6, (2,)), (16, (2, 6)), (18, (2, 6)), (4, ()), (11, ())]
 )
@@ -122,6 +123,7 @@ def test_never_and_always_are_said_of_a_pair_only_where_its_verdict_says_so(
         }
 
 
+@pytest.mark.full
 def test_a_limit_case_says_what_follows() -> None:
     """A4 of four masses without dampers is distinguishable from all others, and a limit of
     thirteen of them.

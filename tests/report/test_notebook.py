@@ -155,6 +155,7 @@ def test_a_large_catalogue_shows_its_first_models_and_where_the_rest_is():
     assert "The first" not in text(catalog(3, damped=False)._repr_html_())
 
 
+@pytest.mark.full
 def test_the_matrix_of_a_catalogue_is_that_of_its_data_frame():
     rows = parsed(catalog(3, damped=False)._repr_html_()).findall(".//tbody/tr")
     signs = {"distinguishable": "≠", "indistinguishable": "=", "": None}

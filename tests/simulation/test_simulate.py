@@ -208,6 +208,7 @@ def test_noise_is_as_large_as_asked_for_and_its_deviation_is_true():
     assert 0.8 < np.mean(error**2) < 1.3
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("slope", "corner"), [(1.0, 2.0), (2.0, 20.0)])
 def test_coloured_noise_has_its_size_and_its_density(slope, corner):
     chain, values = CHAINS[0], truth(CHAINS[0])

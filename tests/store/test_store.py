@@ -39,6 +39,7 @@ def test_every_text_comes_back(texts: dict[str, str]) -> None:
         assert store.info().entries == len(texts)
 
 
+@pytest.mark.full
 def test_large_and_strange_values_come_back_from_disk(path: Path) -> None:
     texts = {
         "empty": "",

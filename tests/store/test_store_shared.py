@@ -131,6 +131,7 @@ def in_child(work: Callable[[], bool]) -> int:
     return child
 
 
+@pytest.mark.full
 def test_commits_of_a_forked_child_outlive_the_close_of_its_parent(path: Path) -> None:
     """If the child shared SQLite's state with its parent, the parent would delete the log on
     closing.

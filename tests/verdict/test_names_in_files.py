@@ -217,7 +217,7 @@ ENTRIES: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.thin(1)
+@pytest.mark.full
 @pytest.mark.parametrize("name", ENTRIES)
 def test_files_of_models_are_refused_likewise(name: str, tmp_path: Path) -> None:
     path = tmp_path / "f.json"

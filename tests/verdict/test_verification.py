@@ -142,6 +142,7 @@ def test_what_is_open_cannot_be_checked_alone() -> None:
     assert found.status is Status.OPEN and "because it is undecided" in found.sentence
 
 
+@pytest.mark.full
 def test_models_are_named_wholly_with_damping_and_sensor() -> None:
     data = plain("3:1+b2+lag", "A4", damped=False, quantity="velocity")
     assert (data["left"], data["right"]) == ("3:1+b2+lag", "3:4")

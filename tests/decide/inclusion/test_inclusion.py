@@ -151,6 +151,7 @@ def test_limits_that_are_not_known(n, damped, unknown):
         )
 
 
+@pytest.mark.full
 def test_the_closures_of_three_damped_masses_are_proven():
     """All but those that rest on ranks of projections; of 13 that are no equivalents, 2 are
     limits.

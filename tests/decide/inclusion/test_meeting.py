@@ -131,6 +131,7 @@ def symbolic(chain):
     return tuple(sp.Poly(part, s) for part in quotient)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "chain",
     [

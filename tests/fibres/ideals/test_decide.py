@@ -202,6 +202,7 @@ def test_forged_evidence_is_refused():
     assert not confirms(Refutation(True, (), 4, True), model(3, 1), model(3, 6))
 
 
+@pytest.mark.full
 def test_limits_make_it_unknown_with_the_reason():
     a, b = model(4, 1), model(4, 8)
     late = decide(a, b, equal_rank=True, limits=Limits(seconds=0.0))

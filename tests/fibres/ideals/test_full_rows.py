@@ -69,6 +69,7 @@ def test_what_it_says():
     assert evidence.formula == "N_R = 7 = |Φ_R|"
 
 
+@pytest.mark.full
 def test_compare_gives_it_as_proven_evidence_that_can_be_checked_again():
     a, b = (Chain(3, 2, at, 3, at, 3, damped=True, ground_dampers=(1, 2)) for at in (1, 2))
     finding = by_full_rows(a, b, Settings())

@@ -115,6 +115,7 @@ def test_the_map_is_the_receptance_as_sympy_inverts_the_matrix(name, damped):
         assert ratio > 0
 
 
+@pytest.mark.full
 def test_the_equations_hold_where_the_roots_are_shared_as_they_are():
     row = row_factors(*rows_of(model("4:6+b1").structure))
     modulus = prime("own share", 192)

@@ -61,6 +61,7 @@ def test_every_member_among_the_open_pairs_is_proven() -> None:
         assert grounds == ({Grounds.THEOREM} if damped else {Grounds.CONSTRUCTION})
 
 
+@pytest.mark.full
 def test_another_seed_says_the_same() -> None:
     c = catalog(3, damped=True)
     for i, j in undecided(c):

@@ -34,7 +34,7 @@ def covered(chain: Chain) -> bool:
     return all(map(is_covered, rows_of(chain.structure)))
 
 
-@pytest.mark.thin(2)
+@pytest.mark.full
 @pytest.mark.parametrize("n", [2, 3, 4])
 def test_a_planted_damped_solution_is_found_again(n: int) -> None:
     for chain in filter(covered, Family(n, damped=True)):

@@ -217,6 +217,7 @@ def test_one_parameter_has_no_collinearity(selection: Selection) -> None:
     assert collinearity_dots(smallest, selection.task, selection.thresholds) is None
 
 
+@pytest.mark.full
 def test_signs_that_the_font_lacks_are_drawn_without_a_word(recwarn) -> None:
     found = draw_figure("a", "t", (1.0, 1.0), lambda figure: heading(figure, "\x9b31m 漢"))
     assert found.png.startswith(b"\x89PNG") and not recwarn
