@@ -41,7 +41,7 @@ HARMLESS = [
 # names of models and pairs: a file is whole only if each is there once (see test_check)
 NAMES = {"left", "right", "model", "indices", "network", "group", "as"}
 # what of a field the checker leaves open by its own word
-OPEN = {"identifiability": ("identifiability", "local or global")}
+OPEN = {"identifiability": ("identifiability", "local or global", "rank")}
 WORDS = {
     "relation": ["distinguishable", "indistinguishable", "sometimes", "undecided"],
     "inclusion": ["left-in-right", "right-in-left", "neither", "unknown", "equal"],
