@@ -231,8 +231,8 @@ def accepted(piece: Piece, strangers: list[Record], share: float = 1.0) -> Itera
     name, record, key = piece
     draw = Random(f"{name} {json.dumps(record)}")
     assert not checked(name, record).wrong, record
-    for path in leaves(record[key], (key,)):
-        if draw.random() > share:
+    for number, path in enumerate(leaves(record[key], (key,))):
+        if number and draw.random() > share:
             continue
         for how, lie in lies(record, path, strangers):
             yield (
