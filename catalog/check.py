@@ -1936,7 +1936,8 @@ def network_record(table, kind, where, r):
     m, told = network(r["network"]), r["identifiability"]
     x = profile(m, SCALE.get(kind, 1))
     free = {n for n, level in told["levels"].items() if level == "not identifiable"}
-    if len(m.exponents) > 1 and x.full_rank + len(m.exponents) < told["rank"]:
+    most = len(m.names) + len(m.exponents)
+    if len(m.exponents) > 1 and x.full_rank + len(m.exponents) < told["rank"] <= most:
         table.add(kind, "model", "rank", searched("two exponents, taken for one"), where)
         return m
     right = told["rank"] == x.full_rank + len(m.exponents)
@@ -2132,7 +2133,7 @@ def overstated(part, e, pair):
         return ""  # not repeated here
     if not is_certain(part["certainty"], part["safety"], e):
         return "a certainty that its evidence does not give"
-    if part["decided_by"] not in ("admissible", condition(e)):
+    if part["decided_by"] in CONDITIONS - {condition(e)}:  # others are those of a newer program
         return "another condition than its evidence"
     if core.get("domain", domain) != domain:
         return "evidence over other values"
@@ -2141,6 +2142,7 @@ def overstated(part, e, pair):
     return relation_of(part["relation"] or "none", e, pair)
 
 
+CONDITIONS = {*"123456789", "exact", ""}
 ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
 
 

@@ -41,7 +41,7 @@ HARMLESS = [
 # names of models and pairs: a file is whole only if each is there once (see test_check)
 NAMES = {"left", "right", "model", "indices", "network", "group", "as"}
 # what of a field the checker leaves open by its own word
-OPEN = {"identifiability": ("identifiability", "local or global")}
+OPEN = {"identifiability": ("identifiability", "local or global", "rank")}
 WORDS = {
     "relation": ["distinguishable", "indistinguishable", "sometimes", "undecided"],
     "inclusion": ["left-in-right", "right-in-left", "neither", "unknown", "equal"],
@@ -231,8 +231,8 @@ def accepted(piece: Piece, strangers: list[Record], share: float = 1.0) -> Itera
     name, record, key = piece
     draw = Random(f"{name} {json.dumps(record)}")
     assert not checked(name, record).wrong, record
-    for path in leaves(record[key], (key,)):
-        if draw.random() > share:
+    for number, path in enumerate(leaves(record[key], (key,))):
+        if number and draw.random() > share:
             continue
         for how, lie in lies(record, path, strangers):
             yield (

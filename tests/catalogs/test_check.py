@@ -620,6 +620,17 @@ def test_lag_and_dead_time_are_compared(check):
         assert not check.agree(m, x, m, x | {name: x[name] + 1}, "a lag", p)
 
 
+def test_a_rank_is_not_larger_than_the_number_of_parameters(check):
+    """Two exponents are taken for one, so that the rank is not computed again, but it is bounded."""
+    names = ["C1", "P1", "P2", "R1", "R2", "n1", "n2"]
+    r = {"network": "R1-P1-p(R2,C1-P2)", "identifiability": {"levels": dict.fromkeys(names, "")}}
+    for rank, is_wrong in ((7, False), (8, True), (3, True)):
+        table = check.Table()
+        r["identifiability"]["rank"] = rank
+        check.network_record(table, "cells", "", r)
+        assert bool(table.wrong) == is_wrong
+
+
 @pytest.mark.parametrize("change", [
     {"sensor": "position"}, {"models": 4}, {"catalog": "chains-2-damped"}, {"n_masses": 3},
 ])  # fmt: skip
