@@ -1514,10 +1514,11 @@ CERTAINTY = {
     **dict.fromkeys(("meeting", "parts-inside", "points", "relative-degrees"), "proven"),
     **dict.fromkeys(("witnesses", "of-part", "replaced", "at-inverse"), "proven"),
     **dict.fromkeys(("no equivalent", "real witnesses"), "proven"),
-    **dict.fromkeys(("embedding", "ranks", "solved", "shared", "refuted"), "bounded"),
+    **dict.fromkeys(("embedding", "solved", "shared", "refuted"), "bounded"),
     **dict.fromkeys(("full-image", "larger-projection", "limit-fibre", "too-large"), "bounded"),
     **dict.fromkeys(("theorem", "interlacing", "real factors"), "theorem"),
     **dict.fromkeys(("by-parts", "forms", "outside", "pole-sharing"), "proven bounded"),
+    "ranks": "proven bounded",
     **dict.fromkeys(("excluded", "renaming"), "proven theorem"),
     **dict.fromkeys(("constants", "full-parts"), "proven"),
     **dict.fromkeys(("fibre", "no-equivalent"), "bounded"),
@@ -1534,9 +1535,18 @@ PLACES |= {"embedding": "structure", "supermodel": "structure", "solved": "fibre
 BITS = 192  # the program's bounds rest on at most three points modulo primes of 64 bits
 
 
-def is_certain(word, bits, e):
+def is_largest(pair, e):
+    """Whether the smaller rank can be no larger; that the other is as large, a prime proves."""
+    small = sides(pair)[e["left"] > e["right"]]
+    rows = small.varying if e["all_rows"] else e["rows"]
+    return min(e["left"], e["right"]) in (len(small.model.names), len(rows))
+
+
+def is_certain(word, bits, e, pair):
     """Whether evidence has such a certainty; bits of a bound stand with bounds."""
     right = word in CERTAINTY[e["kind"]].split() and type(bits) is int
+    if e["kind"] == "ranks":
+        right = right and (word == "bounded" or is_largest(pair, e))
     if e["kind"] == "renaming":  # by a symmetry that is named, or by a search for one
         right = right and (word == "theorem") == bool(e["symmetries"])
     return right and (0 < bits <= BITS if word == "bounded" else bits == 0)
@@ -1574,7 +1584,7 @@ def unfounded(slot, told, e, pair):
     fields = {*FIELDS[slot].split(), "certainty", "safety", "evidence"}
     if not fields <= told.keys() <= fields | {"empirical"}:
         return "fields are missing or unknown"
-    if not is_certain(told["certainty"], told["safety"], e):
+    if not is_certain(told["certainty"], told["safety"], e, pair):
         return "a certainty that its evidence does not give"
     if told.get("reason"):
         return "a reason for what is not open"
@@ -1918,7 +1928,7 @@ def finding(table, kind, where, told, pair, found=None):
         found = Result(WRONG, "evidence over other values")
     if form != 10 or reason != "" or word not in map(FINDING.get, shows(e)):
         found = Result(WRONG, "a finding that its evidence does not show")
-    if not is_certain(certainty, bits, e) or not is_certain(certainty, bits, core):
+    if not all(is_certain(certainty, bits, x, pair) for x in (e, core)):
         found = Result(WRONG, "a certainty that its evidence does not give")
     table.add(kind, "finding", e["kind"], found, where)
 
@@ -2131,7 +2141,7 @@ def overstated(part, e, pair):
     domain, core = part["domain"], core_of(e)
     if core["kind"] not in CERTAINTY:
         return ""  # not repeated here
-    if not is_certain(part["certainty"], part["safety"], e):
+    if not is_certain(part["certainty"], part["safety"], e, pair):
         return "a certainty that its evidence does not give"
     if part["decided_by"] in CONDITIONS - {condition(e)}:  # others are those of a newer program
         return "another condition than its evidence"
