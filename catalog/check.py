@@ -1535,20 +1535,25 @@ PLACES |= {"embedding": "structure", "supermodel": "structure", "solved": "fibre
 BITS = 192  # the program's bounds rest on at most three points modulo primes of 64 bits
 
 
-def is_largest(pair, e):
-    """Whether the smaller rank can be no larger; that the other is as large, a prime proves."""
+def is_by_algebra(word, pair, e):
+    """Whether ranks are called proven although the smaller one could be larger than at a prime."""
+    if (e["kind"], word) != ("ranks", "proven"):
+        return False
     small = sides(pair)[e["left"] > e["right"]]
     rows = small.varying if e["all_rows"] else e["rows"]
-    return min(e["left"], e["right"]) in (len(small.model.names), len(rows))
+    return min(e["left"], e["right"]) not in (len(small.model.names), len(rows))
 
 
 def is_certain(word, bits, e, pair):
     """Whether evidence has such a certainty; bits of a bound stand with bounds."""
-    right = word in CERTAINTY[e["kind"]].split() and type(bits) is int
-    if e["kind"] == "ranks":
-        right = right and (word == "bounded" or is_largest(pair, e))
-    if e["kind"] == "renaming":  # by a symmetry that is named, or by a search for one
-        right = right and (word == "theorem") == bool(e["symmetries"])
+    kind, right = e["kind"], type(bits) is int
+    if kind == "renaming":  # by a symmetry that is named, of a model with itself, or by a search
+        is_one = pair.left == pair.right and all(a == b for a, b in e["pairs"])
+        right = right and (is_one or (word == "theorem") == bool(e["symmetries"]))
+    if kind == "forms" and pair.left.delay != pair.right.delay:
+        right = right and word == "theorem"  # no fraction equals another one times exp(-Td s)
+    else:
+        right = right and word in CERTAINTY[kind].split()
     return right and (0 < bits <= BITS if word == "bounded" else bits == 0)
 
 
@@ -1584,7 +1589,8 @@ def unfounded(slot, told, e, pair):
     fields = {*FIELDS[slot].split(), "certainty", "safety", "evidence"}
     if not fields <= told.keys() <= fields | {"empirical"}:
         return "fields are missing or unknown"
-    if not is_certain(told["certainty"], told["safety"], e, pair):
+    is_more = is_by_algebra(told["certainty"], pair, e)  # no catalogue is built so
+    if is_more or not is_certain(told["certainty"], told["safety"], e, pair):
         return "a certainty that its evidence does not give"
     if told.get("reason"):
         return "a reason for what is not open"
@@ -2131,6 +2137,8 @@ def verdict_file(table, name, told):
     for place, part in (("verdict", told), ("over complex", told.get("over_complex") or {})):
         if e := part.get("evidence"):
             found = judged(evidence(pair, e), overstated, part, e, pair)
+            if found.status == CHECKED and is_by_algebra(part["certainty"], pair, e):
+                found = searched("ranks by exact algebra")
             table.add("verdict", place, str(e.get("kind")), found, name)
     if not table.counts:
         table.add("verdict", "verdict", "none", searched("no evidence in the file"), name)
