@@ -68,6 +68,15 @@ def wait_text(tab, text: str) -> None:
     assert tab.input_value("#machine-text") == text
 
 
+def wait_change(tab, selector: str, name: str, before: str) -> None:
+    """Wait until an attribute has another value: what a key changes is drawn in the next frame."""
+    for _ in range(600):
+        if tab.locator(selector).first.get_attribute(name) != before:
+            return
+        tab.wait_for_timeout(100)
+    raise AssertionError(f"{name} of {selector} is still {before}")
+
+
 def hold(tab, name: str) -> list:
     """Keep the calls of a name waiting; those that came."""
     held = []
@@ -108,7 +117,7 @@ def test_a_machine_by_keys(own, visit):
         before = tab.get_attribute(".bench [data-node='3'] rect", "x")
         tab.keyboard.press("ArrowDown")
         tab.keyboard.press("ArrowLeft")
-        assert tab.get_attribute(".bench [data-node='3'] rect", "x") != before
+        wait_change(tab, ".bench [data-node='3'] rect", "x", before)
         for node in ("2", "0"):
             tab.focus(f".bench [data-node='{node}']")
             tab.keyboard.press("Enter")
@@ -284,7 +293,7 @@ def test_two_models_and_their_motion(visit):
         tab.locator("[aria-label=Time]").focus()
         for _ in range(8):
             tab.keyboard.press("ArrowRight")
-        assert tab.locator(where).first.get_attribute("transform") != before
+        wait_change(tab, where, "transform", before)
         tab.click("text=Play")
         tab.locator("button", has_text="Pause").click()
         tab.click("[aria-label='Exchange the two models']")
@@ -318,7 +327,7 @@ def test_bode_diagrams_a_sweep_and_the_nearest_values(visit):
         before = tab.get_attribute(mark, "d")
         tab.focus("[aria-label=Time]")
         tab.keyboard.press("PageUp")
-        assert tab.get_attribute(mark, "d") != before
+        wait_change(tab, mark, "d", before)
         assert "Hz" in tab.get_attribute("[aria-label=Time]", "aria-valuetext")
         tab.fill("#compare-right", "3:2")
         tab.locator("#motion-nearest[data-state=found]").wait_for()

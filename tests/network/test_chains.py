@@ -36,7 +36,16 @@ def test_both_ways_to_the_transfer_function_agree(n_masses, damped):
             assert Model.from_network(of_chain(each)).content == Model.from_chain(each).content
 
 
-FIELDS = ("n_masses", "gap", "act_minus", "act_plus", "meas_minus", "meas_plus", "quantity", "damped")
+FIELDS = (
+    "n_masses",
+    "gap",
+    "act_minus",
+    "act_plus",
+    "meas_minus",
+    "meas_plus",
+    "quantity",
+    "damped",
+)
 
 
 def anonymous(network: Network) -> Network:
