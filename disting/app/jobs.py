@@ -48,6 +48,9 @@ class Pool:
         self._waiting += 1
         try:
             worker = await self._idle.get()
+            while not worker.is_alive:  # the system ended it meanwhile
+                self._replace(worker)
+                worker = await self._idle.get()
         finally:
             self._waiting -= 1
         if leaving.done():
@@ -69,8 +72,11 @@ class Pool:
             if worker.is_alive:
                 self._idle.put_nowait(worker)
             else:
-                self._every.discard(worker)
-                self._begin_one()
+                self._replace(worker)
+
+    def _replace(self, worker: Worker) -> None:
+        self._every.discard(worker)
+        self._begin_one()
 
     def _begin_one(self) -> None:
         task = asyncio.ensure_future(self._add())

@@ -68,6 +68,7 @@ class Worker:
         context: Any = _forking() if CAN_FORK and setting.loads else get_context("spawn")
         self._pipe, there = context.Pipe()
         self._process = context.Process(target=_serve, args=(there, setting), name="disting app")
+        self._is_killed = False
         with deaf_to_interrupts():  # the server hears Ctrl-C and ends its workers
             self._process.start()
         there.close()
@@ -96,8 +97,10 @@ class Worker:
 
     @property
     def is_alive(self) -> bool:
-        """Return True while the process can be asked."""
-        return bool(self._process.is_alive())
+        """Return True while the process can be asked; one that was killed cannot, though it may
+        live for a moment.
+        """
+        return not self._is_killed and bool(self._process.is_alive())
 
     @property
     def pid(self) -> int:
@@ -106,6 +109,7 @@ class Worker:
 
     def kill(self) -> None:
         """End the process at once; who waits for its answer hears of it."""
+        self._is_killed = True
         self._process.kill()
 
     def end(self) -> None:

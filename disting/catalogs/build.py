@@ -360,9 +360,9 @@ def _false_of_networks(family: NetworkFamily, records: list[Record], engine: Eng
     for r in records[1 + len(sides) :]:
         left, right = sides[r["left"] - 1], sides[r["right"] - 1]
         a, b = left.chain, right.chain
-        pair: tuple[AnySide, AnySide] = (left, right)
-        if a is not None and b is not None:
-            pair = engine.subject(left.name, a), engine.subject(right.name, b)
+        doors: list[tuple[AnySide, AnySide]] = [(left, right)]
+        if a is not None and b is not None:  # a theorem on chains, or one on networks
+            doors.insert(0, (engine.subject(left.name, a), engine.subject(right.name, b)))
         origin = r.get("as")
         if origin and not all(
             replaceable(s.subject, sides[at - 1].subject)
@@ -374,7 +374,9 @@ def _false_of_networks(family: NetworkFamily, records: list[Record], engine: Eng
             evidence = evidence_from(data) if data else None
             if "evidence" not in verdict:
                 evidence = r["finding"].evidence
-            if evidence and not asking.confirms(*pair, evidence, verdict["representation"]):
+            if evidence and not any(
+                asking.confirms(*door, evidence, verdict["representation"]) for door in doors
+            ):
                 wrong.append(f"{left.name} and {right.name}: the evidence does not hold")
     return wrong
 

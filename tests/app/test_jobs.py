@@ -54,3 +54,21 @@ async def leave_before(folder: Path) -> int:
 
 def test_a_call_whose_client_goes_before_a_worker_is_free_is_not_begun(tmp_path: Path) -> None:
     assert run(leave_before(tmp_path)) == 499
+
+
+async def ask_after_a_kill(folder: Path) -> dict:
+    """Answer of a call when the only worker died while it had nothing to do."""
+    pool = Pool(Setting(folder, loads=False), 1)
+    pool.start()
+    try:
+        await pool.answer(CALLS["open"], {"page": "data"})
+        (worker,) = pool._every
+        worker.kill()
+        assert not worker.is_alive  # at once, though the process may live for a moment
+        return await pool.answer(CALLS["open"], {"page": "data"})
+    finally:
+        await pool.end()
+
+
+def test_a_worker_that_died_meanwhile_is_not_asked(tmp_path: Path) -> None:
+    assert run(ask_after_a_kill(tmp_path)) == {"content": None}

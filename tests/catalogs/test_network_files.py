@@ -7,7 +7,7 @@ from itertools import combinations
 
 import pytest
 
-from disting.catalogs.build import verify_networks
+from disting.catalogs.build import _false_of_networks, verify_networks
 from disting.catalogs.network_files import (
     POSITIVE,
     SHIPPED,
@@ -46,6 +46,23 @@ QUICK = ("circuits-4", "compartments-2")
 )
 def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine()).wrong == ()
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("name", ["machines-3", "trees-4"])
+def test_evidence_on_two_chains_holds_by_the_theorem_that_is_named(name: str) -> None:
+    """One on networks was looked up among those on chains, and the evidence "did not hold"."""
+    family, engine = family_of(name), Engine()
+    records = read(shipped_folder() / f"{name_of(name)}.jsonl")
+    heads = records[: 1 + len(family.networks)]
+    sides = engine.general_subjects(family.networks)
+    pairs = [
+        r
+        for r in records[len(heads) :]
+        if sides[r["left"] - 1].chain and sides[r["right"] - 1].chain
+    ]
+    assert len(pairs) > 1
+    assert _false_of_networks(family, [*heads, *pairs], engine) == []
 
 
 @pytest.mark.full

@@ -69,7 +69,7 @@ def visit(tab, site: Path) -> Iterator[object]:  # type: ignore[no-untyped-def]
     assert all(
         re.fullmatch(
             re.escape(site.as_uri())
-            + r"/(search\.js|[\w-]+\.html|(?:models|guide)/style\.css|guide/[\w-]+\.html|models/[\w-]+/\d+\.html)",
+            + r"/(search\.js|[\w-]+\.html|(?:models|guide)/style\.css|guide/[\w-]+\.(?:html|webp)|models/[\w-]+/\d+\.html)",
             request.split("#")[0],
         )
         for request in requests
