@@ -129,8 +129,10 @@ def test_a_second_measurement_tests_the_fit_and_what_comes_after_it_is_on_the_pa
     tab.wait_for_selector("#diagram circle")
     tab.select_option("#field-quantity", "velocity")
     tab.wait_for_selector(".field.assumed", state="detached")
+    assert tab.locator("#together").is_hidden()
     drop(tab, "again.csv", bench_csv(81))
     is_seen(tab, "What was read: again.csv")
+    assert tab.locator("#together").is_visible()  # else somebody adds the data of another machine
     tab.select_option("#role", "test")
     is_seen(tab, "It is read as the first measurement")
     assert tab.locator(".field.assumed").count() == 0

@@ -43,7 +43,8 @@ export const start = async (root, call) => {
       element("p", {}, element("button", { type: "button", class: "plainbutton", onclick: () => addPasted() }, "Read the table"))), troubles);
   const seenPart = element("div", { id: "seen" });
   const fitting = fitSection({ call, follow, state, save, trouble, addNext, setQuantity });
-  root.append(element("h1", {}, "Data"), section("files", "Measurements", drop, tabs), seenPart, fitting.root);
+  const together = element("p", { class: "hint", id: "together", hidden: true }, "All are measurements of one machine. For another machine, remove them first (×); the files stay in the project folder.");
+  root.append(element("h1", {}, "Data"), section("files", "Measurements", drop, tabs, together), seenPart, fitting.root);
 
   async function add(file, name = file.name) {
     if (file.size > LARGEST) return trouble(`${name} is larger than 200 MB, too large; choose a smaller file.`);
@@ -85,9 +86,12 @@ export const start = async (root, call) => {
     return show();
   }
 
-  const showTabs = () => tabs.replaceChildren(...state.measurements.map(({ file, role }, i) => element("span", { class: "measurement" },
-    element("button", { type: "button", class: "plainbutton", "aria-pressed": String(i === chosen), onclick: () => { chosen = i; show(); } }, `${i + 1}. ${file}${role ? " (test)" : ""}`),
-    element("button", { type: "button", class: "plainbutton", "aria-label": `Remove measurement ${i + 1}, ${file}`, onclick: () => remove(i) }, "×"))));
+  const showTabs = () => {
+    together.hidden = state.measurements.length < 2;
+    tabs.replaceChildren(...state.measurements.map(({ file, role }, i) => element("span", { class: "measurement" },
+      element("button", { type: "button", class: "plainbutton", "aria-pressed": String(i === chosen), onclick: () => { chosen = i; show(); } }, `${i + 1}. ${file}${role ? " (test)" : ""}`),
+      element("button", { type: "button", class: "plainbutton", "aria-label": `Remove measurement ${i + 1}, ${file}`, onclick: () => remove(i) }, "×"))));
+  };
   function remove(i) {
     state.measurements.splice(i, 1);
     delete state.measurements[0]?.role; // the first is always fitted
