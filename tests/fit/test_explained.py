@@ -430,7 +430,7 @@ def test_a_resonance_between_two_lines_is_named(step, said):
     assert bool(named) == said, suspicions(found)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_what_one_line_alone_determines_is_not_foretold_by_the_others():
     """A narrow resonance next to one line: without this line its height is not known."""
     machine = bench_drive(4, 52)
