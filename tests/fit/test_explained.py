@@ -159,7 +159,7 @@ def with_friction():
     return series.response("acceleration", period=2500, transient=1)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "data",
     [
@@ -190,7 +190,7 @@ def test_a_mass_more_is_named_where_it_explains_the_data():
     assert [r.words for r in found.readings] == ["with one mass more"]
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_gains_in_db_are_named_where_a_gain_has_no_unit():
     level = 20 * np.log10(np.abs(EXACT) * 100)
     data = noisy(level * np.exp(1j * np.angle(EXACT)))

@@ -115,6 +115,7 @@ def test_values_of_a_machine_that_is_not_linear_are_marked_wherever_they_stand()
     assert selection_to_dict(found)["values_hold"] == ""
 
 
+@pytest.mark.slow
 def test_a_model_with_too_few_masses_is_not_explained_by_distortion():
     """A distortion of 1 % is no licence for a resonance that a model does not have."""
     (measured,) = responses([run_of(Machine(2, coulomb=0.02))])

@@ -159,6 +159,7 @@ def test_a_lag_below_the_band_integrates(speed):
     assert "below the lowest line (5 Hz): over the whole band it integrates" in said
 
 
+@pytest.mark.slow
 def test_one_bad_line_is_named_and_no_further_mass(tmp_path):
     def damage(G):
         G[60] *= 8
@@ -245,6 +246,7 @@ def record(path, quantity, header, seed=3):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("masses", "lag"), [((2,), False), pytest.param((1, 2), True, marks=pytest.mark.slow)]
 )

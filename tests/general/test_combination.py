@@ -62,7 +62,7 @@ def test_a_case_by_hand():
     assert not excludes(cancels, dict.fromkeys("abc", Fraction(1)), cancels)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_force_and_sensor_apart_and_more_values_than_are_determined():
     data = verdict_file(STAR, LOOP)
     assert data["relation"] == "sometimes"
