@@ -231,7 +231,7 @@ def test_a_fit_that_cannot_be_fails_with_a_sentence(app, change, words):
     assert "\n" not in end["message"]
 
 
-def test_a_stopped_fit_leaves_nothing_and_the_next_job_runs(app, second):
+def test_a_stopped_fit_leaves_nothing_and_the_next_job_runs(app, fitted):
     before = len(app.call("fits", {})[1]["fits"])
     begun = app.call("fit", SMALL | {"masses": [1, 2, 3, 4]})[1]["job"]
     events = app.events(begun)
@@ -240,7 +240,7 @@ def test_a_stopped_fit_leaves_nothing_and_the_next_job_runs(app, second):
     assert app.ask("POST", f"/api/jobs/{begun}/stop")[0] == 200
     assert [*events][-1][1]["state"] == "stopped"
     assert len(app.call("fits", {})[1]["fits"]) == before
-    assert app.run("next", {"fit": second})["state"] == "done"
+    assert app.run("next", {"fit": fitted[-1][1]["answer"]["fit"]})["state"] == "done"
 
 
 def test_eight_clients_at_once_get_their_own_answers(app):
