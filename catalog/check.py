@@ -23,7 +23,7 @@ import time
 from collections import Counter, namedtuple
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache
-from itertools import combinations, count, permutations
+from itertools import combinations, compress, count, permutations, product
 from operator import mul as times
 from pathlib import Path
 
@@ -1064,8 +1064,6 @@ def connected(way, parts):
 
 def parts_of(m):
     """{(node, node): part} when all parts in parallel or in series are connected."""
-    if m.fixed:
-        raise NotImplementedError("replacement of compartments")
     ends, parts = {*m.force, *m.sensor}, {}
 
     def put(a, b, part):
@@ -1087,21 +1085,115 @@ def parts_of(m):
             put(*(x for key in at[inner] for x in key if x != inner), connected("series", row))
 
 
+def numberings(first, others):
+    """Yield all numbers of nodes, the first ones in order."""
+    if len(others) > 7:
+        raise NotImplementedError("many nodes")
+    for order in permutations(sorted(others)):
+        yield {x: i for i, x in enumerate((*dict.fromkeys(first), *order))}
+
+
 @cache
 def normal_form(m):
     """The parts and the ports, in the numbering that comes first: force and sensor may be
     exchanged, and the signs of both reversed.
     """
+    if m.fixed:
+        return form_of_compartments(m)
     parts = parts_of(m)
-    nodes = sorted({*m.force, *m.sensor, *(x for key in parts for x in key)})
-    found = []
-    for numbers in permutations(range(len(nodes))):
-        to = dict(zip(nodes, numbers))
-        drawn = sorted((*sorted(to[x] for x in key), part) for key, part in parts.items())
-        ports = [tuple(to[x] for x in port) for port in (m.force, m.sensor)]
-        for pair in (ports, ports[::-1]):
-            found += [(pair, repr(drawn)), ([port[::-1] for port in pair], repr(drawn))]
+    parts = parts if len(parts) == 1 else full_set(m) or parts
+    others, found = {x for key in parts for x in key} - {*m.force, *m.sensor}, []
+    for pair in ((m.force, m.sensor), (m.sensor, m.force)):
+        for force, sensor in (pair, [port[::-1] for port in pair]):
+            for to in numberings((*force, *sensor), others):
+                drawn = sorted((*sorted(to[x] for x in key), part) for key, part in parts.items())
+                found.append(([to[x] for x in (*force, *sensor)], repr(drawn)))
     return min(found)
+
+
+def full_set(m):
+    """{(node, node): part} of a one-port of two kinds of elements, not in series and parallel, that
+    gives all of K(n, c, z): a part of this set remains where some of its elements vanish or become
+    rigid.
+    """
+    powers = sorted({e.power for e in m.elements})
+    if {*m.force} != {*m.sensor} or len(powers) != 2 or m.exponents:
+        return None
+    in_x = (e._replace(power=powers.index(e.power)) for e in m.elements)
+    x = profile(m._replace(elements=tuple(in_x), order=0))
+    c, z = int(x.degrees[0] == x.degrees[1]), int(x.den[0] == 0)
+    part = "two", *powers, x.degrees[1] - z, c, z
+    return {m.force: part} if any([*rest.values()] == [part] for rest in minors(m, 3)) else None
+
+
+def minors(m, most):
+    """Yield the parts of what remains where up to so many elements vanish or become rigid."""
+    for k in range(most + 1):
+        for out, rigid in product(combinations(m.elements, k), product((False, True), repeat=k)):
+            at = list(range(m.nodes + 1))
+            for e in compress(out, rigid):
+                at = [at[e.a] if x == at[e.b] else x for x in at]
+            kept = (e for e in m.elements if e not in out)
+            kept = tuple(e._replace(a=at[e.a], b=at[e.b]) for e in kept)
+            force, sensor = (tuple(at[x] for x in port) for port in (m.force, m.sensor))
+            yield parts_of(m._replace(elements=kept, force=force, sensor=sensor))
+
+
+# compartments: outflows that may be moved, trees that hang at one compartment
+
+
+def reached(start, flows, closed=None):
+    """Compartments to which flows lead, past a closed one."""
+    found, todo = set(), [start]
+    while todo:
+        if (x := todo.pop()) not in found | {closed}:
+            found.add(x)
+            todo += [b for a, b in flows if a == x]
+    return found
+
+
+def moved_outflows(flows, leaky, given, seen):
+    """Compartments whose outflows do as well as these, if the one that is seen has a way out: the
+    first that no way to x avoids, and only the two of the ports if both are among them.
+    """
+    if not leaky & reached(seen, flows):
+        return leaky
+    here = {given, seen, *(x for flow in flows for x in flow)}
+    ways = {c: reached(given, flows, c) | reached(seen, flows, c) for c in here}
+    gates = {x: {c for c in here if x not in ways[c]} for x in here}
+    leaky = {c for x in leaky for c in gates[x] if gates[c] == {c}}
+    return {given, seen} if {given, seen} <= leaky else leaky
+
+
+def form_of_compartments(m):
+    """The flows, and of each compartment how many hang at it in trees and whether there is an
+    outflow: in the numbering that comes first, flows turned round where input and output are one.
+    """
+    (given, _), (seen, _) = m.force, m.sensor
+    flows = {(e.a, e.b) for e in m.elements}
+    here = reached(given, flows) & reached(seen, [flow[::-1] for flow in flows])
+    if not here:
+        raise ValueError(f"no response: {m.text}")
+    leaky = {a for a, b in flows if a in here and b not in here}
+    flows = {(a, b) for a, b in flows if {a, b} <= here}
+    leaky, hanging = moved_outflows(flows, leaky, given, seen), dict.fromkeys(here, 0)
+    while True:
+        near = {x: {b for a, b in flows if a == x} for x in hanging}
+        before = {x: {a for a, b in flows if b == x} for x in hanging}
+        free = hanging.keys() - {given, seen}
+        x = next((x for x in sorted(free) if len(near[x]) == 1 and near[x] == before[x]), None)
+        if x is None:
+            break
+        (y,) = near[x]
+        hanging[y] += hanging.pop(x) + 1
+        leaky = leaky - {x} | ({y} if x in leaky else set())
+        flows = {flow for flow in flows if x not in flow}
+    found = []
+    for to in numberings((given, seen), free):
+        at = [(hanging[x], x in leaky) for x in to]
+        drawn = sorted((to[a], to[b]) for a, b in flows)
+        found += [(at, drawn)] + [(at, sorted((b, a) for a, b in drawn))] * (given == seen)
+    return given == seen, *min(found)
 
 
 def replaceable(a, b):
@@ -1222,6 +1314,9 @@ def theorem(pair, e):
         return searched(f"theorem {name}: its premises are not derived again")
     alike = factors(a) == factors(b) and all(indices(a)[i] == indices(b)[i] for i in (0, 6))
     return result(alike and same_by(a, b, name), f"premises of {name}")
+
+
+REPLACEMENT = {"kind": "theorem", "name": "replacement"}
 
 
 def same_by(a, b, name):
@@ -1997,11 +2092,6 @@ def over_positive(table, kind, where, r, pair):
     return expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
 
 
-def as_another(a, b):
-    """Whether one network gives the same as another one, seen by their parts."""
-    return a is b or (not a.fixed and replaceable(a, b))
-
-
 def networks_file(table, name, lines):
     """networks-*: a line a network with its class, then a line a pair of one class."""
     kind, models, groups, verdicts, told = name.split("-")[1], {}, {}, {}, {}
@@ -2028,10 +2118,9 @@ def networks_file(table, name, lines):
         if "as" in r:
             of = tuple(sorted(r["as"]))
             right = of in told and "as" not in told[of] and groups[of[0]] == groups[key[0]]
-            alike = right and all(as_another(models[x], models[y]) for x, y in zip(key, r["as"]))
-            found = Result(CHECKED, "networks that replace each other")
-            found = found if alike else searched("that these give the same is not derived again")
-            found = found if right else Result(WRONG, "not of this class")
+            ways = (pair_of(models[x], models[y]) for x, y in zip(key, r["as"])) if right else ()
+            found = [evidence(way, REPLACEMENT) for way in ways] or [result(False, "other class")]
+            found = next((x for x in found if x.status != CHECKED), found[0])
             table.add(kind, "pair", "as another", found, f"{name} {key}")
             verdicts.setdefault(key, verdicts.get(of, "missing"))
     consistent(table, kind, name, verdicts)
