@@ -241,7 +241,11 @@ def named(name, a, b):
 
 def model(text, elements, force, sensor, order=0, fixed=0, lag=False, delay=False, names=None):
     """`fixed`: power of s on the whole diagonal (1 for compartments)."""
-    nodes = max([*force, *sensor, *(x for e in elements for x in (e.a, e.b))])
+    ends = [*force, *sensor, *(x for e in elements for x in (e.a, e.b))]
+    sources = [e.a for e in elements if e.kind == "f"] + [max(x) for x in (force, sensor)]
+    if min(ends) < 0 or min(sources) < 1 or {*map(type, ends)} != {int}:
+        raise ValueError(f"no nodes: {text}")
+    nodes = max(ends)
     names = tuple(names or sorted(e.name for e in elements))
     if len(set(names)) < len(names):
         raise ValueError(f"one name for two elements: {text}")
@@ -255,11 +259,19 @@ def between(i, j):
     return f"{i}{j}"
 
 
+def is_proper(n, gap, am, ap, mm, mp):
+    """Whether ports are in the rows to which they belong."""
+    below = range(1, gap + 1) if gap else (0,)
+    return 0 <= gap < n and {am, mm} <= {*below} and {ap, mp} <= {*range(gap + 1, n + 1)}
+
+
 @cache
 def chain(n, gap, am, ap, mm, mp, damped, dampers=(), lag=False, delay=False, order=2):
     """Masses in a row, joints between neighbours but for the gap, the first one at the ground
     where there is a gap; force between `am` and `ap`, sensor between `mm` and `mp`, 0: ground.
     """
+    if not is_proper(n, gap, am, ap, mm, mp) or not {*dampers} <= {*range(1, n + 1)}:
+        raise ValueError("no chain has these indices")
     joints = [i for i in range(n) if i != gap]
     parts = [element("m", f"m{i}", i, 0) for i in range(1, n + 1)]
     parts += [element("k", f"k{i}{i + 1}", i, i + 1) for i in joints]
@@ -463,6 +475,8 @@ class Profile:
         # s^n of a constant phase element becomes s^(7/2): equal functions stay equal
         plain = [e._replace(power=3.5, exponent="") if e.exponent else e for e in m.elements]
         m = m._replace(elements=tuple(plain))
+        if any(scale * e.power % 1 for e in plain):
+            raise ValueError("roots of s")
         self.model, self.p = m, prime_of(f"{m.nodes} nodes")
         self.values = draw(m.text, m.names, self.p)
         self._compute(scale)
@@ -718,6 +732,7 @@ def free_choice(pair, e):
     a, b = sides(pair)
     free, size = set(e["free"]), e["rank"]
     right = a.varying == b.varying == free and a.full_rank == b.full_rank == size == len(free)
+    right = right and not a.model.delay and not b.model.delay
     right = right and a.degrees == b.degrees and a.constants == b.constants
     return result(right, "coefficients, ranks and constants computed again")
 
@@ -903,6 +918,8 @@ def witnesses(pair, e):
     same function. That an exact one is near it, and that another point has none, is not repeated.
     """
     given, other = pair[:2] if e["with_left_given"] else pair[1::-1]
+    if any(re.search(r"[eE][+-]?\d{3}", v) for k in ("point_with", "equivalent") for _, v in e[k]):
+        return result(False, "a number that is too long")
     x, y = ({n: Fraction(v) for n, v in e[k]} for k in ("point_with", "equivalent"))
     without = (pair.left if e["without_left_given"] else pair.right).names
     if [set(x), set(y), {n for n, _ in e["point_without"]}] != [
@@ -999,6 +1016,8 @@ def inequality(pair, e):
     if e["domain"] != "positive":
         return result(False, "signs of terms are those at positive parameters")
     signs = []
+    if any(type(number_) is not int for number_, _, _ in e["form"]):
+        return result(False, "numbers that are none")
     for m in (given, other):
         num, den = symbolic(m)
         if [max(num), max(den)] != profile(m, pair.scale).degrees:
@@ -1071,7 +1090,8 @@ def parts_of(m):
         parts[key] = connected("parallel", [parts[key], part]) if key in parts else part
 
     for e in m.elements:
-        put(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power))
+        if e.a != e.b:
+            put(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power))
     while True:
         at = {}
         for key in parts:
@@ -1455,12 +1475,6 @@ def step_row(row, element_, limit):
     return None
 
 
-def is_proper(n, gap, am, ap, mm, mp):
-    """Whether ports are in the rows to which they belong."""
-    below = range(1, gap + 1) if gap else (0,)
-    return 0 <= gap < n and {am, mm} <= {*below} and {ap, mp} <= {*range(gap + 1, n + 1)}
-
-
 def limit(pair, e):
     """Joints of the larger chain's rows that vanish or become rigid, one by one; a row that is not
     named comes to rest. With a count in addition the last step is not repeated.
@@ -1470,7 +1484,7 @@ def limit(pair, e):
         if shape:
             n, *rest = shape
             other = chain(n, *rest, indices(own)[6])
-            is_same = is_proper(n, *rest) and any(same_by(own, other, x) for x in SAME_BY)
+            is_same = any(same_by(own, other, x) for x in SAME_BY)
             if n != indices(own)[0] or not is_same:
                 return result(False, "a chain that is not the same")
             larger, smaller = (other, smaller) if own is larger else (larger, other)
@@ -1500,7 +1514,7 @@ CHECKS = {check.__name__.replace("_", "-"): check for check in NAMED}
 CHECKS |= {"solved": solutions, "replaced": inner_of, "at-inverse": inner_of}
 CHECKS["no equivalent"] = no_equivalent
 UNREADABLE = (KeyError, ValueError, TypeError, IndexError, AttributeError)
-UNREADABLE += (ArithmeticError, SyntaxError, RecursionError)
+UNREADABLE += (ArithmeticError, SyntaxError, RecursionError, MemoryError)
 
 
 def unreadable(why):
@@ -1594,12 +1608,16 @@ def chain_record(table, kind, where, r, m):
     right = found == (r["parameters"], r["degrees"], r["free"], r["rank"])
     whole = r["rank"] in (len(r["parameters"]), r["free"])  # no rank is larger
     word, bits = r["rank_certainty"], r["safety"]
+    right = right and r.keys() == MODEL_OF_CHAINS
     right = right and (word == "proven" if whole else word == "bounded" and 0 < bits <= BITS)
     expect(table, kind, "model", "degrees, rank", right and (bits == 0 or not whole), where)
     is_same = r["identifiability"]["rank"] == x.full_rank
     found = searched("numbers of equivalents") if is_same else Result(WRONG, "rank")
     table.add(kind, "model", "identifiability", found, where)
 
+
+MODEL_OF_CHAINS = {"model", "indices", "parameters", "degrees", "free", "rank", "identifiability"}
+MODEL_OF_CHAINS |= {"rank_certainty", "safety"}
 
 # what a record says beside its evidence: the kinds of evidence that allow it
 
@@ -1697,16 +1715,28 @@ def unfounded(slot, told, e, pair):
     if "inclusion" in told:
         fits = shows_inclusion(slot, pair, e, told["inclusion"])
         return "" if fits else "an inclusion that its evidence does not show"
-    return relation_of(told.get("relation"), e, pair)
+    return relation_of(slot if slot in DOMAINS else "complex", told.get("relation"), e, pair)
 
 
-def relation_of(relation, e, pair):
+def relation_of(domain, relation, e, pair):
     """What is wrong with a relation that rests on evidence; without one it is that of the kind."""
+    core = core_of(e)
     if not shows(e) or (relation or shows(e)[0]) not in shows(e):
         return "a relation that its evidence does not show"
+    if domain not in DOMAINS or core.get("domain", domain) != domain:
+        return "evidence over other values"
+    if domain != "complex" and relation == SAME and core["kind"] in ONLY_COMPLEX:
+        return "evidence over complex values"
+    if domain == "real" and (e["kind"] == "replaced" or core.get("name") in NOT_REAL):
+        return "a theorem on positive values"
     if relation == SAME and len({x.full_rank for x in sides(pair)}) > 1:
         return "the same, with unequal ranks"
     return ""
+
+
+DOMAINS = ("complex", "real", "positive")
+ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
+NOT_REAL = ("Foster", "Cauer", "replacement")
 
 
 def judged(found, false_of, *told):
@@ -1718,6 +1748,9 @@ def judged(found, false_of, *told):
     return Result(WRONG, why) if why else found
 
 
+DECIDED = ("certainty", "safety", "decided_by", "representation")  # of what is not open
+
+
 def claim(table, kind, slot, told, pair, where):
     """A verdict and its evidence; returns the relation that it gives."""
     if e := told.get("evidence"):
@@ -1725,24 +1758,24 @@ def claim(table, kind, slot, told, pair, where):
         table.add(kind, slot, str(e.get("kind")), found, where)
         return told.get("relation", *shows(e)[:1])
     right = told.get("relation", told.get("inclusion")) in ("undecided", "unknown")
-    if not right or told["certainty"] or told["safety"] != 0 or not told.get("reason", "-"):
+    if not right or any(map(told.get, DECIDED)) or not told.get("reason", "-"):
         expect(table, kind, slot, "none", False, where, "a verdict without evidence")
     return "undecided"
 
 
 CHAIN_SLOTS = {"tf", "markov", "structure", "fibre"}
-DOMAINS = {"left_positive", "right_positive", "real"}
+VALUES = {"left_positive", "right_positive", "real"}
 
 
 def chain_pair(table, kind, where, r, pair, verdicts):
     """All evidence of one pair of chains."""
-    if unknown := r.keys() - CHAIN_SLOTS - DOMAINS - {"left", "right", "inclusions"}:
+    if unknown := r.keys() - CHAIN_SLOTS - VALUES - {"left", "right", "inclusions"}:
         expect(table, kind, "pair", "known", False, where, f"unknown: {sorted(unknown)}")
     shown = {claim(table, kind, slot, r[slot], pair, where) for slot in CHAIN_SLOTS & r.keys()}
-    if len(shown) > 1:
-        expect(table, kind, "pair", "one answer", False, where, "two answers")
+    if len(shown) != 1:
+        expect(table, kind, "pair", "one answer", False, where, "no answer, or two")
     verdicts[r["left"], r["right"]] = next(iter(shown), "undecided")
-    for slot in DOMAINS & r.keys():
+    for slot in VALUES & r.keys():
         claim(table, kind, slot, r[slot], pair, where)
     for side, told in r.get("inclusions", {}).items():
         if side not in ("closure", "image"):
@@ -1752,7 +1785,8 @@ def chain_pair(table, kind, where, r, pair, verdicts):
 
 def header(table, kind, name, head, **counted):
     """The first line of a file: its name, its sensor, and numbers of what is in it."""
-    told = {"catalog": Path(name).stem, "sensor": "acceleration", **counted}
+    schema = 4 if kind == "chains" else 1
+    told = {"catalog": Path(name).stem, "sensor": "acceleration", "schema": schema, **counted}
     right = all(head[key] == told[key] for key in told if key in head or key in counted)
     expect(table, kind, "file", "header", right and "catalog" in head, name)
 
@@ -1772,6 +1806,8 @@ def chains_file(table, name, lines):
     right = set(verdicts) == whole and len(lines) == 1 + len(models) + len(whole)
     every = dict(enumerate(enumerated(head["n_masses"], head["damped"]), 1))
     expect(table, kind, "file", "all models, pairs", right and models == every, name)
+    own = f"chains-{head['n_masses']}-{'' if head['damped'] else 'un'}damped.jsonl"
+    expect(table, kind, "file", "name", name == own, name)
     header(table, kind, name, head, models=len(every))
     consistent(table, kind, name, verdicts)
     return {(n, head["n_masses"]): m for n, m in models.items()}
@@ -1865,9 +1901,9 @@ def links(table, models):
             if models[j].x.full_rank == m.x.full_rank:
                 yield i, j
     for line in table.beside("settled-dampers.jsonl"):
-        r = json.loads(line)
+        r = read(line)
         ends = [first.get(repr(form_of(chain_text(r[side])))) for side in ("left", "right")]
-        known = r["finding"][1] == "holds" and None not in ends
+        known = SAME in shows(r["finding"][4] or {}) and None not in ends
         if known and settled(json.dumps(r))[1].status == CHECKED:
             yield ends[0], ends[1]
 
@@ -1999,7 +2035,7 @@ def dampers_file(table, name, lines):
 @cache
 def settled(line):
     """(pair, result) of one line of settled-dampers."""
-    r = json.loads(line)
+    r = read(line)
     pair = pair_of(chain_text(r["left"]), chain_text(r["right"]))
     return pair, evidence(pair, r["finding"][4])
 
@@ -2016,7 +2052,7 @@ def chain_text(text):
     return chain(n, gap, am, ap, mm, mp, bool(got[7]), dampers)
 
 
-def finding(table, kind, where, told, pair, found=None):
+def finding(table, kind, where, told, pair, domain, found=None):
     """[format, word, certainty, safety, evidence or null, reason]."""
     form, word, certainty, bits, e, reason = told
     if not e:
@@ -2024,12 +2060,11 @@ def finding(table, kind, where, told, pair, found=None):
         if not right or not isinstance(reason, str) or not reason:
             expect(table, kind, "finding", "none", False, where, "no evidence")
         return
-    found, core = found or evidence(pair, e), core_of(e)
-    if core.get("domain", "positive") != "positive":
-        found = Result(WRONG, "evidence over other values")
-    if form != 10 or reason != "" or word not in map(FINDING.get, shows(e)):
-        found = Result(WRONG, "a finding that its evidence does not show")
-    if not all(is_certain(certainty, bits, x, pair) for x in (e, core)):
+    relation = next((x for x in shows(e) if FINDING[x] == word), "none")
+    found = judged(found or evidence(pair, e), relation_of, domain, relation, e, pair)
+    if form != 10 or reason != "":
+        found = Result(WRONG, "a finding with a reason, or of another format")
+    if not all(is_certain(certainty, bits, x, pair) for x in (e, core_of(e))):
         found = Result(WRONG, "a certainty that its evidence does not give")
     table.add(kind, "finding", e["kind"], found, where)
 
@@ -2039,7 +2074,7 @@ def settled_file(table, name, lines):
     expect(table, "settled", "file", "once", len(pairs) == len(lines), name)
     for k, r in enumerate(lines, 1):
         pair, found = settled(json.dumps(r))
-        finding(table, "settled", f"{name}:{k}", r["finding"], pair, found)
+        finding(table, "settled", f"{name}:{k}", r["finding"], pair, "complex", found)
 
 
 def network_record(table, kind, where, r):
@@ -2048,6 +2083,8 @@ def network_record(table, kind, where, r):
     x = profile(m, SCALE.get(kind, 1))
     free = {n for n, level in told["levels"].items() if level == "not identifiable"}
     most = len(m.names) + len(m.exponents)
+    if r.keys() != {"model", "network", "group", "identifiability"}:
+        expect(table, kind, "model", "known", False, where, "missing or unknown fields")
     if len(m.exponents) > 1 and x.full_rank + len(m.exponents) < told["rank"] <= most:
         table.add(kind, "model", "rank", searched("two exponents, taken for one"), where)
         return m
@@ -2071,7 +2108,7 @@ def network_pair(table, kind, where, r, pair):
     if "complex" in r:
         claim(table, kind, "complex", r["complex"], pair, where)
     if "finding" in r:
-        finding(table, kind, where, r["finding"], pair)
+        finding(table, kind, where, r["finding"], pair, "positive")
     if "positive" in r:
         over_positive(table, kind, where, r, pair)
 
@@ -2134,11 +2171,28 @@ def unlisted(table, kind, name, models, groups, verdicts, scale):
         if groups[a] and groups[a] == groups[b]:
             if (a, b) not in verdicts:
                 expect(table, kind, "pair", "class", False, where, "a pair of a class is missing")
+            elif verdicts[a, b] != SAME and apart(*(profile(models[x], scale) for x in (a, b))):
+                expect(table, kind, "pair", "class", False, where, "told apart by invariants")
         else:
             x, y = profile(models[a], scale), profile(models[b], scale)
             told = Result(CHECKED, "invariants"), searched("degrees, ranks, dependences agree")
             differ = told_apart(x, y, ("H", "1/G") if not models[a].exponents else ())
             table.add(kind, "unlisted", "", told[not differ], where)
+
+
+def candidates_pair(a, b, sign, rule, place, certainty):
+    """The signs of one pair: `.`, the first condition that tells it apart, t (transfer function) or
+    f (fibre), and p, b or t (proven, bounded, theorem: one of the two has a dead time).
+    """
+    late = a.model.delay != b.model.delay
+    conditions = [sum(a.degrees) != sum(b.degrees), a.degrees != b.degrees]
+    conditions += [late or a.varying != b.varying, a.full_rank != b.full_rank]
+    first = next((f"{i}" for i, holds in enumerate(conditions, 1) if holds), "5e")
+    words = {"1": "p", "2": "p", "3": "t" if late else "pb", "4": "pb"}.get(rule, "b")
+    right = sign == "." and rule and rule in first and place == "tf"[rule == "e"]
+    if first == "5e" and right and certainty in words:
+        return searched("condition 5 or an exact decision, computed on demand")
+    return result(right and certainty in words, "degrees, ranks and what varies")
 
 
 def candidates_file(table, name, lines):
@@ -2157,13 +2211,9 @@ def candidates_file(table, name, lines):
         signs = [r[key] for key in ("relation", "decided_by", "representation", "certainty")]
         if {len(others)} != {*map(len, signs)}:
             expect(table, "candidates", "pair", "all pairs", False, f"{name}:{k}", "missing")
-        for b, sign, rule in zip(others, *signs[:2]):
-            found = result(sign == ".", "invariants")
-            if rule == "1":
-                found = result(sum(a.degrees) != sum(b.degrees) and sign == ".", "degrees")
-            elif not apart(a, b):
-                found = searched("condition 5 or an exact decision, computed on demand")
-            table.add("candidates", "pair", rule, found, f"{name}:{k}")
+        for b, *signs_ in zip(others, *signs):
+            found = candidates_pair(a, b, *signs_)
+            table.add("candidates", "pair", signs_[1], found, f"{name}:{k}")
     right = [r["left"] for r in lines[1:] if "left" in r] == list(range(1, len(models)))
     expect(table, "candidates", "file", "all pairs", right, name)
     header(table, "candidates", name, lines[0], models=len(models))
@@ -2182,6 +2232,8 @@ ORDERS = {"position": 0, "velocity": 1, "acceleration": 2}
 
 def verdict_model(record):
     """A model of a single verdict file, by its content: its name is that of a person."""
+    if record.keys() - MODEL_OF_VERDICTS:
+        raise NotImplementedError("fields of models")
     if "n_masses" in record:
         keys = ("n_masses", "gap", "act_minus", "act_plus", "meas_minus", "meas_plus", "damped")
         more = tuple(record["ground_dampers"]), record["lag"], record["dead_time"]
@@ -2199,6 +2251,11 @@ def verdict_model(record):
     (sensor,) = record.get("sensor") or record["port"]
     order = ORDERS[record["quantity"]] if "quantity" in record else 0
     return model(json.dumps(record), parts, tuple(force), tuple(sensor), order)
+
+
+MODEL_OF_VERDICTS = {"name", "sensor", "n_masses", "gap", "act_minus", "act_plus", "meas_minus"}
+MODEL_OF_VERDICTS |= {"meas_plus", "damped", "ground_dampers", "lag", "dead_time", "network"}
+MODEL_OF_VERDICTS |= {"elements", "force", "port", "quantity", "flows", "input", "output"}
 
 
 def listed_element(name, a, b=0, more=""):
@@ -2224,7 +2281,12 @@ def verdict_file(table, name, told):
     half = any(e.kind == "W" for m in (a, b) for e in m.elements)
     pair = pair_of(a, b, 2 if half else 1)
     for place, part in (("verdict", told), ("over complex", told.get("over_complex") or {})):
-        if e := part.get("evidence"):
+        says = part.get("relation") in FINDING or any(map(part.get, DECIDED))
+        if not (e := part.get("evidence")) and says:
+            expect(table, "verdict", place, "none", False, name, "a verdict without evidence")
+        if place != "verdict" and part and part.get("domain") != "complex":
+            expect(table, "verdict", place, "domain", False, name, "other values")
+        if e:
             found = judged(evidence(pair, e), overstated, part, e, pair)
             if found.status == CHECKED and is_by_algebra(part["certainty"], pair, e):
                 found = searched("ranks by exact algebra")
@@ -2242,15 +2304,10 @@ def overstated(part, e, pair):
         return "a certainty that its evidence does not give"
     if part["decided_by"] in CONDITIONS - {condition(e)}:  # others are those of a newer program
         return "another condition than its evidence"
-    if core.get("domain", domain) != domain:
-        return "evidence over other values"
-    if domain != "complex" and part["relation"] == SAME and core["kind"] in ONLY_COMPLEX:
-        return "evidence over complex values"
-    return relation_of(part["relation"] or "none", e, pair)
+    return relation_of(domain, part["relation"] or "none", e, pair)
 
 
 CONDITIONS = {*"123456789", "exact", ""}
-ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
 
 
 FILES = {
@@ -2264,13 +2321,31 @@ FILES = {
 }
 
 
+def once(pairs):
+    """A dictionary in which each name stands once."""
+    if len(found := dict(pairs)) < len(pairs):
+        raise ValueError("a name stands twice")
+    return found
+
+
+def finite(text):
+    if abs(number_ := float(text)) < 1e300:
+        return number_
+    raise ValueError(f"no number: {text}")
+
+
+def read(text):
+    """A value of JSON; what the format leaves open is refused."""
+    return json.loads(text, object_pairs_hook=once, parse_float=finite, parse_constant=finite)
+
+
 def check_file(table, path):
     """All records of one file; a file that cannot be read is wrong."""
     try:
         text, table.folder = path.read_text(encoding="utf-8"), path.parent
         if path.suffix == ".json":
-            return verdict_file(table, path.name, json.loads(text))
-        lines = [json.loads(line) for line in text.splitlines()]
+            return verdict_file(table, path.name, read(text))
+        lines = [read(line) for line in text.splitlines()]
         return FILES[re.match(r"[a-z]+", path.stem)[0]](table, path.name, lines)
     except UNREADABLE as why:
         found = result(False, f"cannot be read: {unreadable(why)}"[:90])

@@ -250,6 +250,7 @@ def test_witnesses_that_do_not_fit_are_refused(check):
     ("C1 1 2; R1 1 3; C2 2 3; R2 2 0; R3 3 0", "R1-p(C1,R2)-p(C2,R3)", False),
     ("R1 1 2; R2 1 3; C1 2 3; R3 2 0; L1 3 0", "R1-p(R2,C1)", False),
     ("1~2, 1~3; F2:1; S2:1", "1~2, 1~3; F2:1; S1:2", False),
+    ("R1 1 2; R2 1 3; C1 2 3; R3 2 0; R4 3 0; R5 2 2", "R1-p(R2,C1)", True),
     # outflows of compartments: moved to a gate, left out between two, and where they may not be
     ("1>2, 2>1, 2>0; in 1; out 1", "1>0, 1>2, 2>1; in 1; out 1", True),
     ("1>2, 2>1, 2>0; in 1; out 2", "1>2, 2>1, 1>0; in 1; out 2", False),
@@ -427,7 +428,7 @@ def test_formulas_over_real_values_are_no_finding_over_positive_ones(check):
     assert check.evidence(pair, real).status != check.WRONG
     for evidence, wrong in ((e, False), (real, True)):
         table = check.Table()
-        check.finding(table, "", "", [10, "holds", "proven", 0, evidence, ""], pair)
+        check.finding(table, "", "", [10, "holds", "proven", 0, evidence, ""], pair, "positive")
         assert bool(table.wrong) == wrong
 
 
@@ -650,6 +651,7 @@ def test_a_rank_is_not_larger_than_the_number_of_parameters(check):
     """Two exponents are taken for one, so that the rank is not computed again, but it is bounded."""
     names = ["C1", "P1", "P2", "R1", "R2", "n1", "n2"]
     r = {"network": "R1-P1-p(R2,C1-P2)", "identifiability": {"levels": dict.fromkeys(names, "")}}
+    r |= {"model": 1, "group": 0}
     for rank, is_wrong in ((7, False), (8, True), (3, True)):
         table = check.Table()
         r["identifiability"]["rank"] = rank
