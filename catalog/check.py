@@ -1221,6 +1221,79 @@ def replaceable(a, b):
     return factors(a) == factors(b) and normal_form(a) == normal_form(b)
 
 
+# undamped machines whose zeros lie between their poles (disting/guide/positive-values.md)
+
+
+def joined_nodes(springs, nodes):
+    """Nodes that springs join without the other nodes and the ground."""
+    pairs = [(e.a, e.b) for e in springs if {e.a, e.b} <= {*nodes}]
+    of = classes(pairs + [(x, x) for x in nodes])
+    return [[x for x in nodes if of[x] == number_] for number_ in sorted({*of.values()})]
+
+
+def is_held_tree(m, springs):
+    """Whether these join the masses as a tree, and one of them is at the ground."""
+    grounded = sum(not e.a * e.b for e in springs)
+    is_whole = len(joined_nodes(springs, range(1, m.nodes + 1))) == 1
+    return is_whole and len(springs) == m.nodes and grounded == 1
+
+
+def part_at(m, x, springs, nodes, s):
+    """Determinant of these masses at s, the others held, without the factor s^2 of a free part."""
+    to = {node: i for i, node in enumerate(nodes, 1)}
+    own = [e for e in m.elements if e.kind == "m" or e in springs]
+    own = [e._replace(a=to.get(e.a, 0), b=to.get(e.b, 0)) for e in own]
+    rows = matrix(m._replace(elements=own, nodes=len(nodes)), x.values, s, x.p, {}, 1)[0]
+    is_free = all({e.a, e.b} <= {*nodes} for e in springs if {e.a, e.b} & {*nodes})
+    return reduced(rows, len(nodes), x.p)[2] * pow(s, -2 * is_free, x.p)
+
+
+def zeros_are_of_parts(m, x, springs):
+    """Whether the zeros are the poles of some of the parts that are left where a mass is held or,
+    in a tree, a spring is cut: compared at random places.
+    """
+    ways = [(springs, held) for held in range(1, m.nodes + 1)]
+    if is_held_tree(m, springs):
+        ways += [([e for e in springs if e is not cut], 0) for cut in springs if cut.a * cut.b]
+    spots = [1 + number(f"{m.text} s{i}") % (x.p - 1) for i in range(3)]
+    first = next(i for i, c in enumerate(x.num) if c)
+    wanted = [at(x.num, s, x.p) * pow(s, -first, x.p) for s in spots]
+    for kept, held in ways:
+        parts = joined_nodes(kept, [i for i in range(1, m.nodes + 1) if i != held])
+        values = [[part_at(m, x, kept, part, s) for s in spots] for part in parts]
+        for chosen in product((False, True), repeat=len(parts)):
+            found = [1] * len(spots)
+            for factor in compress(values, chosen):
+                found = [a * b for a, b in zip(found, factor)]
+            if all((a * found[0] - wanted[0] * b) % x.p == 0 for a, b in zip(wanted, found)):
+                return True
+    return False
+
+
+@cache
+def interlaced(m):
+    """(number of masses, powers and sign of the numerator) of an undamped machine that gives all
+    functions whose zeros lie between neighbouring poles, no two between the same; None of others.
+    A tree with one spring to the ground, or a machine that is one without some of its springs.
+    """
+    springs, masses = ([e for e in m.elements if e.kind == kind] for kind in "km")
+    places_ = sorted((e.a, e.b) for e in masses)
+    if len(springs) + len(masses) < len(m.elements) or {b for _, b in places_} != {0}:
+        return None
+    x = profile(m)
+    if [a for a, _ in places_] != [*range(1, m.nodes + 1)] or x.degrees[1] != 2 * m.nodes:
+        return None
+    if not x.den[0] or not zeros_are_of_parts(m, x, springs):
+        return None
+    num = symbolic(m)[0]
+    found = m.nodes, sorted(num), {v > 0 for v in num[min(num)].values()}
+    if len(found[2]) > 1 or is_held_tree(m, springs):
+        return found if len(found[2]) == 1 else None
+    trees = (kept for kept in combinations(springs, m.nodes) if is_held_tree(m, kept))
+    trees = (model(m.text, (*masses, *kept), m.force, m.sensor, m.order) for kept in trees)
+    return found if any(interlaced(tree) == found for tree in trees) else None
+
+
 def inner_of(pair, e):
     """Evidence on two networks that stand for these."""
     a, b = network(e["left"]), network(e["right"])
@@ -1329,6 +1402,8 @@ def theorem(pair, e):
     are_chains = is_chain(a) and is_chain(b)
     if name == "replacement" and not are_chains and replaceable(a, b):
         return Result(CHECKED, "parts that can replace each other")
+    if name == "interlacing" and not are_chains and interlaced(a) == interlaced(b) is not None:
+        return Result(CHECKED, "zeros between poles, in both")
     plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
     if not plain or name not in SAME_BY:
         return searched(f"theorem {name}: its premises are not derived again")
@@ -1736,7 +1811,7 @@ def relation_of(domain, relation, e, pair):
 
 DOMAINS = ("complex", "real", "positive")
 ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
-NOT_REAL = ("Foster", "Cauer", "replacement")
+NOT_REAL = ("Foster", "Cauer", "replacement", "interlacing")
 
 
 def judged(found, false_of, *told):

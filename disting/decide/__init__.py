@@ -548,7 +548,7 @@ POSITIVE_NETWORKS = Table(
             check=f"{_EVIDENCE}:check_sets",
         ),
         Decider(
-            name="interlacing: undamped trees with one spring to the ground",
+            name="interlacing: undamped machines with zeros between poles",
             cost=Cost.CLOSED_FORM,
             decide=f"{_OVER}:by_interlacing",
             yields=(Theorem(INTERLACING),),

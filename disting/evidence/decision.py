@@ -38,9 +38,8 @@ THEOREMS = {
         "{left} and {right} are the same except for gears: a gear changes only the units behind it"
     ),
     "interlacing": (
-        "{left} and {right} are undamped trees with the same number of masses and one spring to the"
-        " ground: each can have any resonances, and any antiresonances that lie each between two"
-        " neighbouring resonances"
+        "{left} and {right} are undamped machines with the same number of masses: each can have any"
+        " resonances, and any antiresonances that lie each between two neighbouring resonances"
     ),
     "parts": (
         "{left} and {right} are undamped, and their rows on both sides of the gap can replace each"

@@ -164,7 +164,7 @@ def by_replacement(left: NetworkSide, right: NetworkSide) -> Finding | None:
 
 
 def by_interlacing(left: NetworkSide, right: NetworkSide) -> Finding | None:
-    """Undamped trees with one spring to the ground."""
+    """Undamped machines with any zeros between their poles."""
     return _of_theorem(ADMISSIBLE, INTERLACING, _gives_same(INTERLACING, left, right))
 
 

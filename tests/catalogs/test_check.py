@@ -272,6 +272,25 @@ def test_parts_that_can_replace_each_other(check, left, right, same):
     assert check.replaceable(check.network(left), check.network(right)) == same
 
 
+@pytest.mark.parametrize(("left", "right", "same"), [
+    ("#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2", True),  # a mass is held
+    ("#~1, 1~2, 1~3; F1; S2:1", "#~1, 1~2, 2~3; F2:1; S3:2", True),  # a spring is cut
+    ("#~1, 1~2, 1~3; F1; S2:1", "#~1, 1~2, 2~3; F2:1; S2:3", False),  # of the other sign
+    ("#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S3", False),  # no antiresonance
+    ("#~1, #~2, 1~2; F1; S2", "#~1, 1~2; F1; S2", True),  # a spring more
+    ("#~1, #~2, 1~2, 1~3; F1; S3", "#~1, 1~2, 2~3; F3; S2:1", True),
+    ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, 1~2, 1~3, 2~3; F1; S2", False),  # of no part
+    ("#~1, #~2, 1~2, 1~3; F1; S2:1", "#~1, #~2, 1~2, 1~3; F1; S2:1", False),
+    ("1~2, 2~3; F1; S2", "1~2, 2~3; F1; S2", False),  # free
+    ("#=1, 1=2, 1=3; F1; S2", "#=1, 1=2, 1=3; F1; S2", False),  # dampers
+    ("R1-p(R2,C1)", "R1-p(R2,C1)", False),
+])  # fmt: skip
+def test_machines_with_any_zeros_between_their_poles(check, left, right, same):
+    e = {"kind": "theorem", "name": "interlacing"}
+    pair = check.pair_of(check.network(left), check.network(right))
+    assert check.evidence(pair, e).status == (check.CHECKED if same else check.SEARCH)
+
+
 @pytest.mark.thin(1)
 @pytest.mark.parametrize("name", [
     "networks-circuits-4", "networks-machines-3", "networks-compartments-3",
