@@ -1221,7 +1221,30 @@ def replaceable(a, b):
     return factors(a) == factors(b) and normal_form(a) == normal_form(b)
 
 
-# undamped machines whose zeros lie between their poles (disting/guide/positive-values.md)
+# undamped machines: the places of springs to the ground, and zeros that lie between poles
+# (disting/guide/replacement.md and positive-values.md)
+
+
+def masses_and_springs(m):
+    """Both, where there is one mass at each node, and nothing but springs beside them."""
+    masses, springs = ([e for e in m.elements if e.kind == kind] for kind in "mk")
+    is_whole = sorted((e.a, e.b) for e in masses) == [(i, 0) for i in range(1, m.nodes + 1)]
+    if not is_whole or len(masses) + len(springs) < len(m.elements):
+        raise NotImplementedError("no undamped machine")
+    return masses, springs
+
+
+def grounded_everywhere(m):
+    """The machine with a spring to the ground at each mass, which gives the same if springs join
+    all masses, some spring is at the ground, and force and sensor are at one mass each.
+    """
+    masses, springs = masses_and_springs(m)
+    inner = [e for e in springs if e.a * e.b]
+    is_whole = len(joined_nodes(inner, range(1, m.nodes + 1))) == 1
+    if not is_whole or len(inner) == len(springs) or min(m.force) or min(m.sensor):
+        raise NotImplementedError("places of springs to the ground")
+    at_ground = [element("k", f"k{e.a} ground", e.a, 0) for e in masses]
+    return model(m.text, (*masses, *inner, *at_ground), m.force, m.sensor, m.order)
 
 
 def joined_nodes(springs, nodes):
@@ -1276,14 +1299,9 @@ def interlaced(m):
     functions whose zeros lie between neighbouring poles, no two between the same; None of others.
     A tree with one spring to the ground, or a machine that is one without some of its springs.
     """
-    springs, masses = ([e for e in m.elements if e.kind == kind] for kind in "km")
-    places_ = sorted((e.a, e.b) for e in masses)
-    if len(springs) + len(masses) < len(m.elements) or {b for _, b in places_} != {0}:
-        return None
+    masses, springs = masses_and_springs(m)
     x = profile(m)
-    if [a for a, _ in places_] != [*range(1, m.nodes + 1)] or x.degrees[1] != 2 * m.nodes:
-        return None
-    if not x.den[0] or not zeros_are_of_parts(m, x, springs):
+    if x.degrees[1] != 2 * m.nodes or not x.den[0] or not zeros_are_of_parts(m, x, springs):
         return None
     num = symbolic(m)[0]
     found = m.nodes, sorted(num), {v > 0 for v in num[min(num)].values()}
@@ -1404,6 +1422,10 @@ def theorem(pair, e):
         return Result(CHECKED, "parts that can replace each other")
     if name == "interlacing" and not are_chains and interlaced(a) == interlaced(b) is not None:
         return Result(CHECKED, "zeros between poles, in both")
+    if name == "springs to the ground" and not are_chains:
+        a, b = grounded_everywhere(a), grounded_everywhere(b)
+        if replaceable(a, b):
+            return Result(CHECKED, "the same with a spring to the ground at each mass")
     plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
     if not plain or name not in SAME_BY:
         return searched(f"theorem {name}: its premises are not derived again")
@@ -1811,7 +1833,7 @@ def relation_of(domain, relation, e, pair):
 
 DOMAINS = ("complex", "real", "positive")
 ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
-NOT_REAL = ("Foster", "Cauer", "replacement", "interlacing")
+NOT_REAL = ("Foster", "Cauer", "replacement", "interlacing", "springs to the ground")
 
 
 def judged(found, false_of, *told):

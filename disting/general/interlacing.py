@@ -48,10 +48,12 @@ from flint import fmpz_mpoly
 from disting.algebra.determinants import minors
 from disting.algebra.symbols import symbols
 from disting.errors import InputError
-from disting.evidence.decision import INTERLACING, REPLACEMENT
+from disting.evidence.decision import GROUNDS, INTERLACING, REPLACEMENT
 from disting.general.matrix_model import AnyModel, Model
 from disting.general.replacement import simplest_network
+from disting.network.grounds import grounded_everywhere, is_undamped
 from disting.network.network import Element, Network, parts
+from disting.network.simplest import simplest
 
 REMEMBERED = 512  # machines: each is asked about in many pairs
 Ring = dict[str, fmpz_mpoly]
@@ -71,7 +73,12 @@ def sets_of(model: AnyModel) -> dict[str, object]:
     """Sets of functions that the model gives by theorems on networks, by their names: models with
     equal sets are equivalent, None gives no information.
     """
-    return {REPLACEMENT: simplest_network(model), INTERLACING: machine_type(model)}
+    network = model.network and grounded_everywhere(model.network)
+    return {
+        REPLACEMENT: simplest_network(model),
+        INTERLACING: machine_type(model),
+        GROUNDS: network and simplest(network),
+    }
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -90,7 +97,7 @@ def machine_type(model: AnyModel) -> MachineType | None:
     network, other_parts = model.network, tuple(map(bool, model.numerator_terms))
     masses = len(network.nodes)
     if (
-        not _is_undamped(network)
+        not is_undamped(network)
         or model.degrees[1] != 2 * masses
         or not model.denominator[0]
         or not _has_zeros_of_parts(model, network)
@@ -134,18 +141,6 @@ def _trees_within(network: Network) -> Iterator[Model]:
             yield Model.from_network(tree)
 
 
-def _is_undamped(network: Network) -> bool:
-    """Return True if it is made of a mass at each node, and springs, and all of them are seen."""
-    masses = [e.nodes for e in network.elements if e.letter == "m"]
-    return (
-        sorted(masses) == [(i,) for i in network.nodes]
-        and {e.letter for e in network.elements} == {"m", "k"}
-        and len(network.elements) == len(network.seen)
-        and not any(e.ratio for e in network.elements)
-        and network.shape == (1, 1)
-    )
-
-
 def is_held_tree(network: Network) -> bool:
     """Return True if it is made of masses, springs that connect them as a tree, and one to the
     ground.
@@ -154,7 +149,7 @@ def is_held_tree(network: Network) -> bool:
     springs = [e for e in network.elements if e.letter == "k"]
     joints = [e for e in springs if 0 not in _ends(e)]
     return (
-        _is_undamped(network)
+        is_undamped(network)
         and len(springs) == len(nodes) == len(joints) + 1
         and len(set(parts(nodes, map(_ends, joints)).values())) == 1
     )

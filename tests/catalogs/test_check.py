@@ -291,6 +291,22 @@ def test_machines_with_any_zeros_between_their_poles(check, left, right, same):
     assert check.evidence(pair, e).status == (check.CHECKED if same else check.SEARCH)
 
 
+@pytest.mark.parametrize(("left", "right", "same"), [
+    ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, #~3, 1~2, 1~3, 2~3; F1; S2", True),
+    ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, 1~2, 1~3, 2~3; F2; S3", True),
+    ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, 1~2, 1~3, 2~3; F1; S1", False),
+    ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, 1~2, 1~3; F1; S2", False),
+    ("#~1, 1~2, 1~3, 2~3; F1; S2", "1~2, 1~3, 2~3; F1; S2", False),  # no spring to the ground
+    ("#~1, 1~2, 1~3; F1; S3:2", "#~2, 1~2, 1~3; F1; S3:2", False),  # between two masses
+    ("#~1, #~2, 1~3; F1; S3", "#~1, #~2, #~3, 1~3; F1; S3", False),  # of two parts
+    ("#=1, 1=2; F1; S2", "#=2, 1=2; F1; S2", False),  # dampers
+])  # fmt: skip
+def test_places_of_springs_to_the_ground(check, left, right, same):
+    e = {"kind": "theorem", "name": "springs to the ground"}
+    pair = check.pair_of(check.network(left), check.network(right))
+    assert check.evidence(pair, e).status == (check.CHECKED if same else check.SEARCH)
+
+
 @pytest.mark.thin(1)
 @pytest.mark.parametrize("name", [
     "networks-circuits-4", "networks-machines-3", "networks-compartments-3",
