@@ -412,6 +412,20 @@ def test_the_answers_diagrams_are_zoomed_and_their_curves_hidden(own, visit, wid
     assert overflow(tab) <= 0
 
 
+def test_the_page_of_a_fit_is_shown_without_an_empty_tail(own, visit):
+    answered(own)
+    words = "<p>" + "one two three four five " * 400
+    (own.folder / "fits" / "1" / "fit.html").write_text(f"<!DOCTYPE html><title>fit</title>{words}")
+    tab = visit(own, 390)
+    frame = "document.querySelector('iframe.report')"
+    until(tab, f"{frame}?.clientHeight > 1000")
+    tall = tab.evaluate(f"{frame}.clientHeight")
+    tab.set_viewport_size({"width": 1280, "height": 800})
+    until(tab, f"{frame}.clientHeight < {tall} / 2")
+    content = tab.evaluate(f"{frame}.contentDocument.documentElement.offsetHeight")
+    assert 0 <= tab.evaluate(f"{frame}.clientHeight") - content <= 4
+
+
 def test_a_fit_is_stopped_and_a_closed_page_finds_its_fit_again(own, visit):
     tab = visit(own)
     drop(tab, "bench.csv", bench_csv())

@@ -107,7 +107,7 @@ export const fitSection = ({ call, follow, state, save, trouble, addNext, setQua
     frame.addEventListener("load", () => {
       const page = frame.contentDocument?.documentElement;
       if (!page) return;
-      const fitTo = () => { frame.style.height = `${page.scrollHeight + 2}px`; };
+      const fitTo = () => { frame.style.height = `${page.offsetHeight + 2}px`; };
       new ResizeObserver(fitTo).observe(page);
       fitTo();
     });

@@ -57,9 +57,13 @@ class NetworkAdvice:
 
     @property
     def first(self) -> str:
-        """The first sentence: what separates the first group, if anything separates all of it."""
+        """The first sentence: what separates the first group, if anything separates all of it, or
+        that there is nothing to separate.
+        """
         group = next(iter(self.groups), None)
         enough = anywhere(group) if group else ""
+        if group is None and len(self.noise) == 1:
+            return "; ".join(self.sentences)
         if group is None or not enough:
             return self.sentences[0]
         names = enumeration(group.names, BAR)
