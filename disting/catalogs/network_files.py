@@ -24,13 +24,14 @@ from disting.catalogs.files import Record, lines
 from disting.conditions.rule import ADMISSIBLE, Finding
 from disting.errors import CatalogError
 from disting.evidence.kind import Labels
+from disting.evidence.positive import BothWays
 from disting.files import intact_text, shipped_folder
 from disting.general.any_model import without_names
 from disting.general.forms import BRIEFLY, WAS_BRIEF, of_equals, of_part
 from disting.general.identifiability import PARAMETERS
 from disting.general.matrix_model import AnyModel
 from disting.general.network_view import NetworkSide
-from disting.general.over_domain import positive_question
+from disting.general.over_domain import by_replacement, positive_question
 from disting.general.parts import parts_of
 from disting.general.plain_maps import PLAIN_MAPS
 from disting.general.replacement import replaceable, simplest_network
@@ -229,13 +230,23 @@ def _pairs(
             "left": i + 1,
             "right": j + 1,
             "complex": _verdict_record(over_complex, i, j),
-            "positive": _verdict_record(over_positive, i, j),
+            "positive": _of_networks(_verdict_record(over_positive, i, j), sides[i], sides[j]),
         }
         if isinstance(finding, Finding):
             record["finding"] = json.loads(finding.to_json())
             if over_positive.verdict(i, j).evidence == finding.evidence:  # else by a theorem
                 del record["positive"]["evidence"]
         yield record
+
+
+def _of_networks(record: Record, left: NetworkSide, right: NetworkSide) -> Record:
+    """The record, by the theorem on networks where two chains replace each other: a small checker
+    derives its premises from the names in the file, those of both ways it does not.
+    """
+    is_both_ways = record["evidence"] and record["evidence"]["kind"] == BothWays.kind
+    told = by_replacement(left, right) if is_both_ways else None
+    theorem = None if told is None else told.evidence
+    return record if theorem is None else record | {"evidence": theorem.to_dict()}
 
 
 def _short(records: Sequence[Record], sides: Sequence[NetworkSide]) -> Iterator[Record]:
