@@ -52,7 +52,7 @@ from disting.evidence.decision import GROUNDS, INTERLACING, REPLACEMENT
 from disting.general.matrix_model import AnyModel, Model
 from disting.general.replacement import simplest_network
 from disting.network.grounds import grounded_everywhere, is_undamped
-from disting.network.network import Element, Network, parts
+from disting.network.network import Element, Network, Port, parts
 from disting.network.simplest import simplest
 
 REMEMBERED = 512  # machines: each is asked about in many pairs
@@ -73,12 +73,47 @@ def sets_of(model: AnyModel) -> dict[str, object]:
     """Sets of functions that the model gives by theorems on networks, by their names: models with
     equal sets are equivalent, None gives no information.
     """
-    network = model.network and grounded_everywhere(model.network)
+    plain, network = simplest_network(model), model.network
+    kind, whole = (None, None) if plain is None else _of_simplest(plain)
+    grounded = network and grounded_everywhere(network)
     return {
-        REPLACEMENT: simplest_network(model),
-        INTERLACING: machine_type(model),
-        GROUNDS: network and simplest(network),
+        REPLACEMENT: plain,
+        INTERLACING: machine_type(model) or kind,
+        GROUNDS: simplest(grounded) if grounded else whole,
     }
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _of_simplest(plain: Network) -> tuple[MachineType | None, Network | None]:
+    """The same of a simplest network of masses and springs: many networks have the same one."""
+    machines = [*machines_of(plain)]
+    kinds = (machine_type(Model.from_network(machine)) for machine in machines)
+    grounded = (simplest(whole) for machine in machines if (whole := grounded_everywhere(machine)))
+    return next(filter(None, kinds), None), next(filter(None, grounded), None)
+
+
+def machines_of(network: Network) -> Iterator[Network]:
+    """Yield a simplest network of masses and springs as a machine: where all masses meet in one
+    node, this node may be the ground.
+    """
+    masses = [{*_ends(e)} for e in network.elements if e.letter == "j"]
+    springs = [e for e in network.elements if e.letter == "k"]
+    if not masses or len(masses) + len(springs) < len(network.elements):
+        return
+    for ground in sorted(set.intersection(*masses)):
+        to = {node: node for node in (0, *network.nodes)} | {ground: 0, 0: ground}
+        at = sorted(to[node] for ends in masses for node in ends - {ground})
+        if at != [*network.nodes]:
+            continue
+        inputs, outputs = (
+            tuple(Port(to[port.plus], to[port.minus]) for port in side)
+            for side in (network.inputs, network.outputs)
+        )
+        elements = [Element(f"m{node}", "m", (node,)) for node in at]
+        for i, e in enumerate(springs, 1):
+            low, high = sorted(to[node] for node in _ends(e))
+            elements.append(Element(f"k{i}", "k", (low, high) if low else (high, 0)))
+        yield Network(tuple(elements), inputs, outputs, network.order)
 
 
 @lru_cache(maxsize=REMEMBERED)
