@@ -422,6 +422,19 @@ def test_the_answers_diagrams_are_zoomed_and_their_curves_hidden(own, visit, wid
     assert overflow(tab) <= 0
 
 
+def test_diagrams_that_cannot_be_read_leave_the_rest_of_the_answer(own, visit):
+    answered(own)
+    path = own.folder / "fits" / "1" / "figures.json"
+    broken = [[], {"figures": [1]}, {"figures": [{"kind": "bode", "measured": [], "curves": [{}]}]}]
+    for content in (*broken, {"figures": 5}):
+        path.write_text(json.dumps(content))
+        tab = visit(own)
+        is_seen(tab, "Answer of fit 1: eis.csv")
+        tab.wait_for_selector("#answer button:has-text('What to measure next')")
+        if content:
+            is_seen(tab, "The diagrams of this fit cannot be shown")
+
+
 def test_the_page_of_a_fit_is_shown_without_an_empty_tail(own, visit):
     answered(own)
     words = "<p>" + "one two three four five " * 400

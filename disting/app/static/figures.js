@@ -21,8 +21,14 @@ const figureOf = (figure, number) => {
 
 // The diagrams of a fit in a place of the page, which stays empty where the fit has none.
 export const showFigures = async (call, fit, place) => {
-  const { figures } = await call("figures", { fit }).catch(() => ({ figures: [] }));
-  const both = figures.flatMap((figure) => (figure.kind === "nyquist" ? [figure, { ...figure, kind: "bode" }] : [figure])), shown = both.map(figureOf);
-  place.replaceChildren(...shown.map(({ root }) => root));
-  new ResizeObserver(() => shown.forEach(({ redraw }) => redraw())).observe(place);
+  try {
+    const { figures } = await call("figures", { fit });
+    const shown = figures.flatMap((figure) => (figure.kind === "nyquist" ? [figure, { ...figure, kind: "bode" }] : [figure])).map(figureOf);
+    place.replaceChildren(...shown.map(({ root }) => root));
+    const redraw = () => shown.forEach((one) => one.redraw());
+    redraw();
+    new ResizeObserver(redraw).observe(place);
+  } catch {
+    place.replaceChildren(element("p", { class: "hint" }, "The diagrams of this fit cannot be shown; its page below has them too."));
+  }
 };
