@@ -659,7 +659,15 @@ def core_of(e):
 
 def shows(e):
     """Relations that evidence of this kind can show."""
-    return SHOWS.get(core_of(e)["kind"], ())
+    core = core_of(e)
+    if core["kind"] != "both ways":
+        return SHOWS.get(core["kind"], ())
+    shares = tuple(sorted({core[side]["share"] for side in ("left", "right")}))
+    return BOTH.get(shares, ())
+
+
+BOTH = {("always",): (SAME,), ("never",): (DIFFERENT,), ("sometimes",): (SOMETIMES,)}
+BOTH["always", "sometimes"] = (SOMETIMES,)
 
 
 def result(is_right, why):
@@ -1446,6 +1454,17 @@ def same_by(a, b, name):
     return is_foster(a) and is_foster(b) and one == (name == "Cauer")
 
 
+def both_ways(pair, e):
+    """On two chains that are these, or stand for these: the share of each that has equivalents."""
+    sides_ = [e[side] for side in ("left", "right")]
+    right = all(x["share"] in SHARES[x["evidence"]["kind"]].split() for x in sides_)
+    if not right or not all(
+        is_certain(x["certainty"], x["safety"], x["evidence"], pair) for x in sides_
+    ):
+        return result(False, "shares that their evidence does not show")
+    return searched("shares of both are not repeated")
+
+
 def by_search(pair, e):
     return searched("a search that is not repeated")
 
@@ -1609,7 +1628,7 @@ NAMED = (counts, forms, ranks, renaming, embedding, explicit, witnesses, inequal
 NAMED += (free_choice, of_part, full_image, larger_projection, relative_degrees, too_large, meeting)
 CHECKS = {check.__name__.replace("_", "-"): check for check in NAMED}
 CHECKS |= {"solved": solutions, "replaced": inner_of, "at-inverse": inner_of}
-CHECKS["no equivalent"] = no_equivalent
+CHECKS |= {"no equivalent": no_equivalent, "both ways": both_ways}
 UNREADABLE = (KeyError, ValueError, TypeError, IndexError, AttributeError)
 UNREADABLE += (ArithmeticError, SyntaxError, RecursionError, MemoryError)
 
@@ -1733,6 +1752,7 @@ CERTAINTY = {
     **dict.fromkeys(("constants", "full-parts"), "proven"),
     **dict.fromkeys(("fibre", "no-equivalent"), "bounded"),
     "dead time": "theorem",
+    "both ways": "theorem proven bounded",
     "supermodel": "proven bounded",
     "odd fibres": "theorem proven bounded",
 }
@@ -1820,7 +1840,8 @@ def relation_of(domain, relation, e, pair):
     core = core_of(e)
     if not shows(e) or (relation or shows(e)[0]) not in shows(e):
         return "a relation that its evidence does not show"
-    if domain not in DOMAINS or core.get("domain", domain) != domain:
+    own = "positive" if core["kind"] == "both ways" else core.get("domain", domain)
+    if domain not in DOMAINS or own != domain:
         return "evidence over other values"
     if domain != "complex" and relation == SAME and core["kind"] in ONLY_COMPLEX:
         return "evidence over complex values"

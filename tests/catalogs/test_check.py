@@ -484,7 +484,7 @@ def test_the_guide_names_every_kind_of_evidence(check):
 
 # kinds that only single verdicts of several experiments, of ranges or of limits have
 OF_VERDICTS = {
-    "both ways", "box", "fibre under experiments", "minor", "missing-elements", "only one",
+    "box", "fibre under experiments", "minor", "missing-elements", "only one",
 }  # fmt: skip
 
 

@@ -300,9 +300,23 @@ def test_the_verdicts_that_are_forged_below_are_checked(check):
     assert statuses(verdict(check, [CHAIN, CHAIN], EQUAL, domain="real")) == {check.CHECKED}
 
 
-COUNTS = {"kind": "counts", "left": [4, 4], "right": [2, 4]}
-COMPLEX = {"relation": "distinguishable", "domain": "complex", "decided_by": "2",
-           "certainty": "proven", "safety": 0}  # fmt: skip
+ALWAYS_SAME = {"share": "always", "certainty": "theorem", "safety": 0, "evidence": EQUAL}
+BOTH_WAYS = {"kind": "both ways", "left": ALWAYS_SAME, "right": ALWAYS_SAME}
+
+
+def test_shares_of_both_show_no_more_than_they_say(check):
+    def of(e, **others):
+        return statuses(verdict(check, [CHAIN, CHAIN], e, **others))
+
+    assert of(BOTH_WAYS) == {check.SEARCH}
+    some = ALWAYS_SAME | {"share": "sometimes"}
+    forged = [(BOTH_WAYS, {"relation": "sometimes"}), (BOTH_WAYS, {"domain": "real"}),
+              (BOTH_WAYS, {"relation": "distinguishable"}), (BOTH_WAYS | {"left": some}, {}),
+              (BOTH_WAYS | {"left": some}, {"relation": "sometimes"}),
+              (BOTH_WAYS | {"left": ALWAYS_SAME | {"safety": 9}}, {}),
+              (BOTH_WAYS | {"left": ALWAYS_SAME | {"share": "x"}}, {}),
+              (BOTH_WAYS, {"domain": "complex"})]  # fmt: skip
+    assert [others for e, others in forged if check.WRONG not in of(e, **others)] == []
 
 
 @pytest.mark.parametrize(("models", "evidence", "others"), [
