@@ -16,14 +16,16 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias, TypeVar, cast
 
-from flint import Ordering, fmpq_mpoly_ctx, fmpz_mpoly, fmpz_mpoly_ctx
+from flint import Ordering, fmpq_mpoly_ctx, fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
 if TYPE_CHECKING:
     import sympy
     from flint.typing import scalar_p
 
+REMEMBERED = 2048  # polynomials with their factors
 Polynomial = fmpz_mpoly
 Term = tuple[int, Mapping[str, int]]
 """Coefficient and {symbol: exponent}."""
@@ -123,6 +125,18 @@ def factorise(polynomial: fmpz_mpoly) -> tuple[int, list[tuple[fmpz_mpoly, int]]
     >>> factorise(6 * (x + 3 * 10**9) * (x + 1) ** 2 * (x - 10**9))
     (6, [(x - 1000000000, 1), (x + 3000000000, 1), (x + 1, 2)])
     """
+    number, powers = _known_factors(polynomial.context(), frozenset(polynomial.to_dict().items()))
+    return number, list(powers)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _known_factors(
+    ring: fmpz_mpoly_ctx, items: frozenset[tuple[tuple[int, ...], fmpz]]
+) -> tuple[int, list[tuple[fmpz_mpoly, int]]]:
+    """Content and factors of a polynomial by its terms, which can be a key: searches by cases meet
+    the same one again and again.
+    """
+    polynomial = ring.from_dict(dict(items))
     try:
         number, powers = polynomial.factor()
     except OverflowError:

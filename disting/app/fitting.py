@@ -11,8 +11,9 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from disting.app.figures import figures_of, figures_of_networks
 from disting.app.interface import Json, Progress
-from disting.app.project import ABOUT, fit_file, fit_numbers, inside, measured, summary
+from disting.app.project import ABOUT, FIGURES, fit_file, fit_numbers, inside, measured, summary
 from disting.app.reading import command_words, response_of
 from disting.app.workers import Setting
 from disting.errors import InputError, short
@@ -92,6 +93,7 @@ def _fit_chains(request: Json, folder: Path, work: Work) -> Json:
     again = _command(request, _option_words(request))
     selection = replace(selection, command=again)
     write_fit_report(selection, folder, train, test)
+    _write_figures(folder, figures_of(selection, train, test))
     models = export(selection, train)
     if models:
         write_mat(folder / "model.mat", models, selection.task.sign)
@@ -179,12 +181,18 @@ def _fit_networks(request: Json, folder: Path, work: Work) -> Json:
     response = as_impedance(response) if is_circuit else response
     selection = fit_networks(response, networks, engine=work.engine, progress=work.progress)
     write_network_report(selection, folder)
+    _write_figures(folder, figures_of_networks(selection))
     return {
         "answer": [*selection.warnings, selection.sentence],
         "explains": bool(selection.left),
         "quantities": [],
         "command": _command(request, ["--models", *request["models"]]),
     }
+
+
+def _write_figures(folder: Path, figures: list[Json]) -> None:
+    """Write the diagrams that the page draws."""
+    write_whole(folder / FIGURES, [json_text({"figures": figures}), "\n"])
 
 
 def _networks(text: str) -> Sequence[Network]:

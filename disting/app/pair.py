@@ -36,7 +36,7 @@ EXTENTS = {
     "family": "and infinitely many more",
     "unknown": "and perhaps more",
 }
-LONGEST = 16  # signs of a fraction; longer ones are rounded
+LONGEST = 9  # signs of a fraction such as 3600/361; longer ones are rounded
 
 
 def compare_two(request: Json) -> Json:

@@ -23,6 +23,7 @@ from disting.errors import InputError, short
 from disting.files import json_text, read_json, write_whole
 
 ABOUT = "about.json"  # request and answer of a finished fit
+FIGURES = "figures.json"  # its diagrams as numbers
 LOCK = ".disting-app.lock"
 LONGEST = 120  # bytes of a file name
 FORBIDDEN = re.compile(r'[\x00-\x1f\x7f/\\:*?"<>|]')
@@ -141,8 +142,15 @@ def list_fits(request: Json) -> Json:
 def summary(number: int) -> Json:
     """Return number, files, request and answer of a finished fit."""
     folder = inside(Path(), "fits", str(number))
-    files = sorted(path.name for path in folder.iterdir() if path.name != ABOUT)
+    own = (ABOUT, FIGURES)
+    files = sorted(path.name for path in folder.iterdir() if path.name not in own)
     return read_object(folder / ABOUT) | {"fit": number, "files": files}
+
+
+def show_figures(request: Json) -> Json:
+    """Return the diagrams of a finished fit; none of one that was written without them."""
+    folder = inside(Path(), "fits", str(request["fit"]))
+    return {"figures": read_object(inside(folder, FIGURES)).get("figures", [])}
 
 
 def fit_file(number: int) -> Path:

@@ -7,7 +7,7 @@ becomes options of the reader and steps after it, and the words of the command t
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from disting.app.project import measured
 from disting.errors import InputError, short
 from disting.fit.judge.members import QUANTILE
 from disting.measurement import FrequencyResponse, beginnings, in_si, read
+from disting.measurement.arrays import Complex, Real
 from disting.measurement.look_text import fact_rows
 from disting.measurement.looking import Change, Look, look, name_units
 from disting.measurement.options import LookOptions
@@ -109,26 +110,40 @@ def diagram(seen: Look) -> Json | None:
     if response is None:
         return None
     known = _known_scatter(response)
-    at = np.unique(np.linspace(0, len(response) - 1, MOST_DRAWN).astype(int))
-    if len(response) <= MOST_DRAWN:
-        at = np.arange(len(response))
-    columns = {
-        "frequency": response.frequency[at],
-        "re": response.G.real[at],
-        "im": response.G.imag[at],
-        "gain": np.abs(response.G[at]),
-        "phase": np.degrees(np.unwrap(np.angle(response.G)))[at],
-        "wide": None if known is None else (QUANTILE * known)[at],
-    }
+    phase = np.degrees(np.unwrap(np.angle(response.G)))
     return {
         "kind": "nyquist" if seen.is_impedance else "bode",
         "unit": "Ω" if seen.is_impedance else response_unit(response),
         "lines": len(response),
-        **{name: None if x is None else [float(v) for v in x] for name, x in columns.items()},
+        **lines_of(response, phase, known),
     }
 
 
-def _known_scatter(response: FrequencyResponse) -> Any:
+def lines_of(response: FrequencyResponse, phase: Real, rho: Real | None) -> Json:
+    """Return the lines of a diagram, at most `MOST_DRAWN`, with their phase [degree] and scatter
+    `rho`, shape (n_f,) each.
+    """
+    at = np.unique(np.linspace(0, len(response) - 1, MOST_DRAWN).astype(int))
+    if len(response) <= MOST_DRAWN:
+        at = np.arange(len(response))
+    return points_of(response.frequency[at], response.G[at], phase[at]) | {
+        "wide": None if rho is None else numbers(QUANTILE * rho[at])
+    }
+
+
+def points_of(frequency: Real, response: Complex, phase: Real) -> Json:
+    """Return points of a diagram as plain data."""
+    columns = {"frequency": frequency, "re": response.real, "im": response.imag}
+    columns |= {"gain": np.abs(response)}
+    return {name: numbers(column) for name, column in (columns | {"phase": phase}).items()}
+
+
+def numbers(values: Real) -> list[float]:
+    """Return numbers as plain data."""
+    return [float(value) for value in values]
+
+
+def _known_scatter(response: FrequencyResponse) -> Real | None:
     """Scatter of the lines, shape (n_f,), None where it is unknown."""
     try:
         rho = scatter(response).rho

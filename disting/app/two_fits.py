@@ -1,5 +1,6 @@
-"""Two finished fits side by side: what each selected, how well it explains its data, the verdict on
-both structures, and the parameters with their intervals.
+"""Two finished fits side by side: what each selected, how well it explains its data, and the
+parameters with their intervals; as a job, since it may take minutes, the verdict on both
+structures.
 """
 
 import shlex
@@ -7,8 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from disting.app.interface import Json
+from disting.app.interface import Json, Progress
 from disting.app.project import fit_file, read_object, summary
+from disting.app.workers import Setting
 from disting.errors import DistingError
 from disting.files import Format
 from disting.model.chain import Chain
@@ -48,14 +50,19 @@ class Side:
 
 def set_beside(request: Json) -> Json:
     """Return two fits side by side."""
-    left, right = sides = [_side(number) for number in request["fits"]]
-    sentence, command = _verdict(left, right)
+    sides = [_side(number) for number in request["fits"]]
     return {
         "rows": [[name, *texts] for name, *texts in _rows(sides)],
         "parameters": [[name, *texts] for name, *texts in _parameters(sides)],
-        "verdict": sentence,
-        "command": command,
     }
+
+
+def decide_fits(request: Json, progress: Progress, _: Setting) -> Json:
+    """Return the verdict on the structures that two fits selected, with its command."""
+    left, right = (_side(number) for number in request["fits"])
+    progress("deciding", 0, 1)
+    sentence, command = _verdict(left, right)
+    return {"verdict": sentence, "command": command}
 
 
 def _side(number: int) -> Side:

@@ -13,6 +13,7 @@ from disting.catalogs.network_files import SHIPPED, build_networks
 from disting.cli.arguments import add_masses, add_out, add_work, size_or_family
 from disting.cli.workers import announce, engine_for, pairs_by_size, pairs_work
 from disting.network.families import family_of
+from disting.store import Store
 
 if TYPE_CHECKING:
     from disting.catalogs.build import FamilyCheck
@@ -70,6 +71,8 @@ def add_verify_arguments(parser: argparse.ArgumentParser) -> None:
     _add_read_folder(parser, shipped_folder(), "the shipped one")
     text = "search again what a brief search left open in a family (hours)"
     parser.add_argument("--search-open", action="store_true", help=text)
+    text = "keep in FILE what this verification computes; given again, it goes on from there"
+    parser.add_argument("--resume", default="", metavar="FILE", help=text)
     add_work(parser)
 
 
@@ -179,26 +182,27 @@ def verify(options: argparse.Namespace) -> int:
     sizes = [n for n in options.masses if isinstance(n, int)]
     networks = [name for name in options.masses if isinstance(name, str)]
     wrong = _wrong_by_second_opinion([*sizes, *networks], options.catalog)
-    with engine_for(options) as (_, pool, progress):
+    with engine_for(options) as (_, pool, progress), Store.open(options.resume) as kept:
         for name in networks:
             family = family_of(name)
             found = verify_networks(
                 family,
                 options.catalog,
-                Engine(),
+                Engine(store=kept),
                 search_open=options.search_open,
                 executor=pool,
                 progress=progress,
             )
             wrong += _report(name, [*found.wrong], _notes_of(found))
         for n, damped in product(sizes, (False, True)):
-            texts = _wrong_of_one_size(n, damped, options.catalog, pool, progress)
+            fresh = Engine(store=kept)
+            texts = _wrong_of_one_size(n, damped, options.catalog, fresh, pool, progress)
             wrong += _report(f"{n} masses, {_kind(damped)}", texts)
         for damped in (False, True) if set(CATALOGUED) <= set(sizes) else ():
             texts = verify_sizes(
                 damped=damped,
                 folder=options.catalog,
-                engine=Engine(),
+                engine=Engine(store=kept),
                 executor=pool,
                 progress=progress,
             )
@@ -229,16 +233,16 @@ def _wrong_by_second_opinion(names: list[int | str], folder: Path) -> list[str]:
 
 
 def _wrong_of_one_size(
-    n: int, damped: bool, folder: Path, pool: Executor | None, progress: Progress
+    n: int, damped: bool, folder: Path, fresh: Engine, pool: Executor | None, progress: Progress
 ) -> list[str]:
     """Faults of the files of chains of one size; nothing is taken from the cache: a verification
-    computes.
+    computes, or goes on with what it has computed itself.
     """
     from disting.catalogs.build import verify as verify_chains, verify_dampers
     from disting.catalogs.dampers import SHIPPED_SIZES, read
     from disting.catalogs.next_files import SHIPPED_SIZES as NEXT_SIZES, WITH_DAMPERS, verify_next
 
-    fresh, texts = Engine(), list[str]()
+    texts = list[str]()
     for check in (verify_chains, verify_dampers) if n in SHIPPED_SIZES else (verify_chains,):
         texts += check(
             n, damped=damped, folder=folder, engine=fresh, executor=pool, progress=progress

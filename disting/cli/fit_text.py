@@ -37,6 +37,7 @@ from disting.report.fit.words import (
     name as name_of,
     percent,
     result_unit,
+    values_in_words,
     with_error,
 )
 from disting.verdict.result import Relation
@@ -207,7 +208,7 @@ def _beside(selection: Selection, line: Line) -> Iterator[str]:
     one.
     """
     for twin in line.best.twins:
-        values = ", ".join(f"{n} = {v:.5g}" for n, v in twin.parameters.items())
+        values = values_in_words(twin.parameters)
         free = f" (one of many sets of values, {twin.free_choices} free)" * (twin.free_choices > 0)
         yield f"equivalent to {twin.name}  {text_drawing(twin.chain)}  {values}{free}"
     rest = [m for m in line.members if m is not line.best]

@@ -19,6 +19,7 @@ from disting.measurement.arrays import Real
 from disting.model.presentation import summary
 
 NAMED = 0.3  # share of the largest entry from which on a parameter belongs to the worst direction
+MANY = 4_000_000  # entries of a product, from which on it is not formed
 ROUNDING = 1e-15  # a singular value below this share of the largest one is zero
 # share of a gradient along undetermined directions from which on its function is not determined
 LOST = 1e-6
@@ -196,9 +197,10 @@ def standard_errors(slopes: Real, columns: Real, noise: NoiseModel, rank: int) -
         return np.full(len(slopes), inf)
     left, values, right = np.linalg.svd(unit_columns(columns), full_matrices=False)
     parts = slopes / length @ right.T
-    errors = np.linalg.norm(
-        noise.seen(left[:, :rank]) @ (parts[:, :rank] / values[:rank]).T, axis=0
-    )
+    seen, along = noise.seen(left[:, :rank]), (parts[:, :rank] / values[:rank]).T
+    if len(seen) * len(slopes) > MANY:
+        seen = np.linalg.qr(seen, mode="r")  # the same lengths with few rows
+    errors = np.linalg.norm(seen @ along, axis=0)
     lost = np.linalg.norm(parts[:, rank:], axis=1) > LOST * np.linalg.norm(parts, axis=1)
     return np.asarray(np.where(lost, inf, errors))
 

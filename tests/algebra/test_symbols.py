@@ -201,3 +201,14 @@ def test_no_function_divides_by_zero():
     ):
         with pytest.raises(ZeroDivisionError):
             divided()
+
+
+def test_factors_that_are_remembered_are_those_of_the_ring_and_stay_as_they_are():
+    found = []
+    for names in (("x", "y"), ("x", "z")):
+        a, b = symbols(names).values()
+        number, powers = factorise(2 * (a + b) ** 2)
+        assert (number, powers) == (2, [(a + b, 2)])
+        powers.clear()
+        found.append(factorise(2 * (a + b) ** 2)[1])
+    assert [str(powers[0][0]) for powers in found] == ["x + y", "x + z"]

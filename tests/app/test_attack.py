@@ -69,6 +69,8 @@ REQUESTS = {
     "next": {"fit": 1},
     "plan": {"fit": 1},
     "two_fits": {"fits": [1, 2]},
+    "fits_verdict": {"fits": [1, 2]},
+    "figures": {"fit": 1},
 }
 BODIES = [
     b"", b"{", b"}", b"[]", b"null", b"1", b'"x"', b"{} {}", b"\xff\xfe", b'{"page": NaN}', b'{"page": Infinity}', b'{"page": "data", "page": "data"}',

@@ -57,6 +57,7 @@ def visit(browser) -> Iterator[object]:
             viewport={"width": width, "height": 844 if width < 500 else 800},
             color_scheme=scheme,
             reduced_motion="reduce",
+            has_touch=width < 500,
         )
         tab = context.new_page()
         tab.set_default_timeout(SLOW)
@@ -173,7 +174,7 @@ def test_a_second_measurement_tests_the_fit_and_what_comes_after_it_is_on_the_pa
     tab.wait_for_selector("#answer a[href$='plan.html'] >> text=Open the page of the plan")
     tab.click("text=Compare the fits")
     tab.wait_for_selector("#two-fits table")
-    assert "Both select the same structure, 2:1+b1+delay." in tab.locator("#two-fits").inner_text()
+    is_seen(tab, "Both select the same structure, 2:1+b1+delay.")
     tab.evaluate("document.querySelectorAll('details').forEach((part) => { part.open = true; })")
     assert barriers(tab) == []
     tab.set_viewport_size({"width": 390, "height": 844})
@@ -260,9 +261,9 @@ def test_a_chemist_pastes_a_spectrum(own, visit):
     assert barriers(tab) == []
 
 
-def shown(tab) -> str:
-    """The part of the diagram that is shown; empty where all of it is."""
-    return tab.locator("#diagram").get_attribute("aria-label").partition("; shown: ")[2]
+def shown(tab, diagram: str = "#diagram") -> str:
+    """The part of a diagram that is shown; empty where all of it is."""
+    return tab.locator(diagram).get_attribute("aria-label").partition("; shown: ")[2]
 
 
 def ends(tab) -> list[float]:
@@ -329,6 +330,123 @@ def test_the_diagram_is_zoomed_by_keys_and_buttons(app, visit):
     tab.get_by_role("button", name="Zoom out").click()
     assert shown(tab) == ""
     assert overflow(tab) <= 0
+
+
+def touch(session, kind: str, *places: tuple[float, float]) -> None:
+    """A touch event of the browser itself, with a finger at each place."""
+    points = [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(places)]
+    session.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
+
+
+def test_two_fingers_zoom_a_diagram_about_their_middle(app, visit):
+    tab = visit(app, 390)
+    drop(tab, "bench.csv", bench_csv())
+    tab.wait_for_selector("#diagram circle")
+    tab.locator("#diagram").scroll_into_view_if_needed()
+    box = tab.locator("#diagram").bounding_box()
+    middle, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 3
+    fingers = tab.context.new_cdp_session(tab)
+    touch(fingers, "Start", (middle - 20, y))
+    touch(fingers, "Start", (middle - 20, y), (middle + 20, y))
+    for far in (40, 60, 80):
+        touch(fingers, "Move", (middle - far, y), (middle + far, y))
+    touch(fingers, "End")
+    until(tab, ZOOMED)
+    low, high = ends(tab)
+    assert 10 < low < 35 < high < 150  # a quarter of 5 to 300 Hz, about its middle
+    assert 2 < high / low < 4
+    assert tab.locator("#diagram .chosen").count() == 0
+    assert f"{low:g} to" in tab.locator("#status").inner_text()
+    touch(fingers, "Start", (middle - 80, y), (middle + 80, y))
+    touch(fingers, "Move", (middle - 10, y), (middle + 10, y))
+    touch(fingers, "End")
+    until(tab, f"!{ZOOMED}")
+
+
+def answered(served: Served) -> None:
+    """A finished fit of an impedance with two curves, as a fit writes it."""
+    folder = served.folder / "fits" / "1"
+    folder.mkdir(parents=True)
+    f = [10.0**k for k in range(5)]
+    Z = [10 + 100 / (1 + 0.02j * x) for x in f]
+    line = {
+        "frequency": f,
+        "re": [z.real for z in Z],
+        "im": [z.imag for z in Z],
+        "gain": [abs(z) for z in Z],
+        "phase": [0.0, -10.0, -40.0, -10.0, 0.0],
+    }
+    half = [0.02] * 5
+    band = {"wide": half, "wide_phase": half, "across_re": half, "across_im": half}
+    figure = {
+        "kind": "nyquist",
+        "title": "",
+        "unit": "Ω",
+        "measured": [{"name": "data", **line, "wide": half}],
+        "curves": [{"name": "R0-p(R1,C1)", **line, **band}, {"name": "R0-p(R1,P1)", **line}],
+    }
+    (folder / "figures.json").write_text(json.dumps({"figures": [figure]}))
+    request = {"models": ["R0-p(R1,C1)"], "measurements": [{"file": "eis.csv", "reading": {}}]}
+    about = {"answer": ["Data: fine"], "request": request}
+    (folder / "about.json").write_text(json.dumps(about))
+    (folder / "fit.html").write_text(
+        "<!DOCTYPE html><html lang='en'><title>fit</title><h1>fit</h1>"
+    )
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark")])
+def test_the_answers_diagrams_are_zoomed_and_their_curves_hidden(own, visit, width, scheme):
+    answered(own)
+    tab = visit(own, width, scheme)
+    nyquist, bode = "#answer-diagram-0", "#answer-diagram-1"
+    tab.wait_for_selector(f"{bode} path.curve", state="attached")
+    assert tab.locator(f"{nyquist} path.curve").count() == 2
+    assert tab.locator(f"{nyquist} path.band").count() == 1
+    assert tab.locator(f"{bode} path.curve").count() == 4  # amplitude and phase
+    label = tab.locator(bode).get_attribute("aria-label")
+    assert label.endswith("bars of 95 %, with R0-p(R1,C1), R0-p(R1,P1)")
+    tab.locator("#answer .zoom").nth(1).focus()
+    for key in ("+", "+", "ArrowRight"):
+        tab.keyboard.press(key)
+    assert shown(tab, bode).endswith(" Hz") and shown(tab, nyquist) == ""
+    ticks = tab.locator(f"{bode} .axes text").all_text_contents()
+    assert "1" not in ticks and "100" in ticks  # the axis is drawn anew
+    tab.locator("#answer figure").nth(1).get_by_role("checkbox", name="R0-p(R1,P1)").uncheck()
+    assert tab.locator(f"{bode} path.curve").count() == 2
+    assert shown(tab, bode).endswith(" Hz")
+    tab.locator("#answer").get_by_role("button", name="Zoom in").first.click()
+    assert shown(tab, nyquist).startswith("Re Z ")
+    assert tab.get_by_text("Add another measurement").count() == 0
+    assert "fitted to one measurement" in tab.locator("#answer").inner_text()
+    assert barriers(tab) == []
+    assert overflow(tab) <= 0
+
+
+def test_diagrams_that_cannot_be_read_leave_the_rest_of_the_answer(own, visit):
+    answered(own)
+    path = own.folder / "fits" / "1" / "figures.json"
+    broken = [[], {"figures": [1]}, {"figures": [{"kind": "bode", "measured": [], "curves": [{}]}]}]
+    for content in (*broken, {"figures": 5}):
+        path.write_text(json.dumps(content))
+        tab = visit(own)
+        is_seen(tab, "Answer of fit 1: eis.csv")
+        tab.wait_for_selector("#answer button:has-text('What to measure next')")
+        if content:
+            is_seen(tab, "The diagrams of this fit cannot be shown")
+
+
+def test_the_page_of_a_fit_is_shown_without_an_empty_tail(own, visit):
+    answered(own)
+    words = "<p>" + "one two three four five " * 400
+    (own.folder / "fits" / "1" / "fit.html").write_text(f"<!DOCTYPE html><title>fit</title>{words}")
+    tab = visit(own, 390)
+    frame = "document.querySelector('iframe.report')"
+    until(tab, f"{frame}?.clientHeight > 1000")
+    tall = tab.evaluate(f"{frame}.clientHeight")
+    tab.set_viewport_size({"width": 1280, "height": 800})
+    until(tab, f"{frame}.clientHeight < {tall} / 2")
+    content = tab.evaluate(f"{frame}.contentDocument.documentElement.offsetHeight")
+    assert 0 <= tab.evaluate(f"{frame}.clientHeight") - content <= 4
 
 
 def test_a_fit_is_stopped_and_a_closed_page_finds_its_fit_again(own, visit):

@@ -10,7 +10,7 @@ from jsonschema import validate
 from disting.app.interface import CALLS
 from disting.app.onward import advise, plan
 from disting.app.project import summary
-from disting.app.two_fits import set_beside
+from disting.app.two_fits import decide_fits, set_beside
 from disting.app.workers import Setting
 from disting.cli.run import main
 from disting.errors import InputError
@@ -67,7 +67,10 @@ def test_the_advice_is_that_of_the_command_and_stays_with_the_fit(inside, capsys
     validate(answer, CALLS["next"].schema["properties"]["answer"])
     assert answer["next"]["command"] == "disting next fits/1/fit.json"
     assert said(capsys, answer["next"]["command"]) == answer["next"]["text"] + "\n"
-    assert answer["next"]["first"] in answer["next"]["text"]
+    cannot, _, separates = answer["next"]["first"].partition("; ")
+    assert cannot.startswith("this measurement cannot distinguish ")
+    assert separates.startswith("what separates all of them: the voltage at any further node")
+    assert separates in answer["next"]["text"]
     assert summary(1) == answer
 
 
@@ -101,10 +104,12 @@ def test_the_verdict_on_both_structures_is_that_of_the_command(inside, capsys):
     own.mkdir(exist_ok=True)
     selection = fit_networks(spectrum(), [network_of(other)])
     (own / "fit.json").write_text(json_text(selection.to_dict()))
-    answer = set_beside({"fits": [1, 3]})
+    answer = decide_fits({"fits": [1, 3]}, silent, inside)
+    validate(answer, CALLS["fits_verdict"].schema["properties"]["answer"])
     assert answer["command"] == shlex.join(["disting", "compare", selected, other])
     assert answer["verdict"] in said(capsys, answer["command"])
-    assert set_beside({"fits": [1, 1]})["verdict"] == f"Both select the same structure, {selected}."
+    same = decide_fits({"fits": [1, 1]}, silent, inside)
+    assert same["verdict"] == f"Both select the same structure, {selected}."
 
 
 def test_a_fit_that_is_not_there_is_refused(inside):

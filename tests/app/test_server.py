@@ -173,6 +173,8 @@ def test_after_a_fit_its_advice_its_plan_and_another_fit_beside_it(
     assert status == 200, both
     rows = {name: texts for name, *texts in both["rows"]}
     assert rows["Data"] == ["bench.csv", "bench.csv"] and rows["Structure"][0] == "2:1+b1+delay"
+    end = app.run("fits_verdict", {"fits": [first, second]})
+    assert end["state"] == "done" and end["answer"]["verdict"].startswith("2:1+b1+delay"), end
     assert app.call("two_fits", {"fits": [first, 999]})[1]["error"] == "the project has no fit 999"
 
 

@@ -8,9 +8,12 @@ from itertools import combinations
 import pytest
 
 from disting.catalogs.build import _false_of_networks, verify_networks
+from disting.catalogs.files import lines
 from disting.catalogs.network_files import (
+    COMPLEX,
     POSITIVE,
     SHIPPED,
+    _pairs,
     build_networks,
     name_of,
     read,
@@ -64,6 +67,13 @@ def test_evidence_on_two_chains_holds_by_the_theorem_that_is_named(name: str) ->
     ]
     assert len(pairs) > 1
     assert _false_of_networks(family, [*heads, *pairs], engine) == []
+    written = (shipped_folder() / f"{name_of(name)}.jsonl").read_text(encoding="utf-8")
+    for r in pairs:
+        both = [sides[r[side] - 1] for side in ("left", "right")]
+        decided = (engine.decisions(both, query) for query in (COMPLEX, POSITIVE))
+        (line,) = _pairs(engine, both, *decided)
+        number = {"left": r["left"], "right": r["right"]}
+        assert lines([line | number]) in written
 
 
 @pytest.mark.full

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from disting.cli.commands import COMMANDS, SECTIONS, Group
+from disting.store import Store
 from tests.cli.process import called, disting, rows
 
 
@@ -184,6 +185,11 @@ def test_catalog_build_and_verify(tmp_path):
     assert called("catalog", "build", 2, "--out", tmp_path).returncode == 0
     good = called("catalog", "verify", 2, "--catalog", tmp_path)
     assert (good.returncode, good.stdout.count("every evidence holds")) == (0, 2)
+    kept = tmp_path / "kept.sqlite3"
+    again = ("catalog", "verify", 2, "--catalog", tmp_path, "--resume", kept)
+    assert [called(*again).stdout for _ in range(2)] == [good.stdout] * 2
+    with Store.open(kept) as store:
+        assert store.info().entries > 0
     path = tmp_path / "chains-2-damped.jsonl"
     path.write_text(path.read_text().replace('"decided_by":"1"', '"decided_by":"2"'))
     refused = called("catalog", "verify", 2, "--catalog", tmp_path)

@@ -1,10 +1,19 @@
 """Costs and sensitivities of the three cases: equations (6) to (15), literally."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from disting.errors import InputError
-from disting.fit.search.cost import Case, Cost, lines_by_coherence, lines_by_deviation
+from disting.fit.search.cost import (
+    Case,
+    Cost,
+    CostOfEach,
+    lines_by_coherence,
+    lines_by_deviation,
+)
+from disting.fit.search.descent import Box, fine, rough
 from disting.fit.search.plant import Plant
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
@@ -51,6 +60,26 @@ def test_the_sensitivity_is_the_derivative_of_the_residual(case, chain):
         )
         scale = np.abs(columns).max()
         np.testing.assert_allclose(columns[:, i] / scale, difference / 2e-6 / scale, atol=2e-7)
+
+
+def test_a_start_that_does_not_see_some_lines_is_fitted_to_the_others_alone():
+    """As a fit of the other lines alone, by scipy, ends; starts may end one after the other."""
+    chain = CHAINS[1]
+    p, plant, measured = both(chain, 3)
+    box = Box(np.zeros(len(p)), np.full(len(p), np.inf))
+    rng = np.random.default_rng(1)
+    noisy = measured.G * (1 + 0.05 * rng.standard_normal((2, OMEGA.size)).T @ [1, 1j])
+    whole = Cost(replace(measured, G=noisy))
+    start, _ = fine(plant, whole, box, p)
+    fold = np.arange(OMEGA.size) % 3
+    seen = (np.tile(fold, 2) != np.arange(3)[:, None]).astype(float)
+    starts = np.tile(start, (3, 1))
+    ends, costs = rough(plant, CostOfEach(whole, seen), box, starts, 100, 1e-9)
+    for k, (end, cost) in enumerate(zip(ends, costs, strict=True)):
+        alone = replace(whole, lines=(fold != k) * 1.0)
+        assert cost == pytest.approx(float(alone.total(plant.response(end))), rel=1e-12)
+        assert cost == pytest.approx(fine(plant, alone, box, start)[1], rel=1e-6)
+        assert cost < float(alone.total(plant.response(start)))
 
 
 def test_weights_of_the_paper_count_20_db_as_180_degrees():

@@ -1,6 +1,7 @@
 """Criteria of practical identifiability on published numbers."""
 
 import re
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -144,3 +145,15 @@ def test_errors_of_results_are_those_of_the_covariance_and_infinite_across_what_
     alone = np.sqrt(covariance(matrix[:, :3], equal(3.0, 30, 4))[2, 2])  # one column for the sum
     assert both == pytest.approx(alone, rel=1e-9)
     assert np.isinf(standard_errors(slopes, np.zeros((30, 4)), equal(3.0, 30, 4), 4)).all()
+
+
+def test_standard_errors_of_a_fine_curve_of_many_lines_take_little_memory():
+    draw = np.random.default_rng(3)
+    matrix, slopes = draw.normal(size=(4000, 4)), draw.normal(size=(8000, 4))
+    noise = equal(3.0, 4000, 4)
+    tracemalloc.start()
+    found = standard_errors(slopes, matrix, noise, 4)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 20e6  # the product of both would have 256 MB
+    assert np.allclose(found[:50], standard_errors(slopes[:50], matrix, noise, 4), rtol=1e-12)

@@ -19,6 +19,7 @@ its eigenspace is a line. (W. Auzinger, H. J. Stetter, An elimination algorithm 
 of all zeros, 1988.) There may be none: solutions can lie in extension fields only.
 """
 
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import SupportsInt
@@ -63,11 +64,14 @@ class TooLarge(Exception):
 @dataclass(slots=True)
 class _Work:
     order: Order
+    guard: int  # both of the order
+    mask: int
     modulus: int
     waiting: list[MatrixRow]
     rows: list[MatrixRow] = field(default_factory=list)
-    # exponents of their leading monomials
+    # exponents of their leading monomials, also as codes without degrees
     leads: list[tuple[int, ...]] = field(default_factory=list)
+    lows: list[int] = field(default_factory=list)
     # elements whose leading monomial no other one divides
     active: list[int] = field(default_factory=list)
     pairs: list[tuple[int, int, int]] = field(default_factory=list)  # lcm, two elements
@@ -90,6 +94,8 @@ def basis_steps(generators: Iterable[Sparse], size: int, modulus: int) -> Iterat
     rows = [_row({order.encode(e): c for e, c in g.items()}, modulus) for g in generators]
     work = _Work(
         order,
+        order.guard,
+        order.mask,
         modulus,
         sorted(
             (r for r in rows if r.codes), key=lambda r: (order.degree(r.codes[0]), len(r.codes))
@@ -148,16 +154,14 @@ def _matrix(
     pivots: Pivots = {}
     others = [row for row in rows if pivots.setdefault(row[0][0], row) is not row]
     others += [(list(r.codes), r.numbers) for r in fresh]
-    visited, todo = set(pivots), [m for codes, _ in (*pivots.values(), *others) for m in codes]
+    visited = set(pivots)
+    todo = {m for codes, _ in (*pivots.values(), *others) for m in codes} - visited
     while todo:
-        m = todo.pop()
-        if m in visited:
-            continue
-        visited.add(m)
-        i = _reducer(work, m)
-        if i is not None:
-            pivots[m] = _multiple(work, m - work.rows[i].codes[0], i)
-            todo += pivots[m][0]
+        visited |= todo
+        found = {m: i for m in todo if (i := _reducer(work, m)) is not None}
+        added = {m: _multiple(work, m - work.rows[i].codes[0], i) for m, i in found.items()}
+        pivots |= added
+        todo = {m for codes, _ in added.values() for m in codes} - visited
     return pivots, others, visited
 
 
@@ -168,10 +172,10 @@ def _multiple(work: _Work, factor: int, element: int) -> Multiple:
 def _reducer(work: _Work, code: int) -> int | None:
     if code in work.reducers:
         return work.reducers[code]
-    guard, mask = work.order.guard, work.order.mask
-    low, tried = (code & mask) | guard, work.missed.get(code, 0)
-    for i in work.active:
-        if i >= tried and (low - (work.rows[i].codes[0] & mask)) & guard == guard:
+    guard, lows = work.guard, work.lows
+    low, tried = (code & work.mask) | guard, work.missed.get(code, 0)
+    for i in work.active[bisect_left(work.active, tried) :]:
+        if (low - lows[i]) & guard == guard:
             work.reducers[code] = i
             return i
     work.missed[code] = len(work.rows)
@@ -250,7 +254,7 @@ def _insert(work: _Work, new: MatrixRow) -> None:
     superfluous.
     """
     order, lead, h = work.order, new.codes[0], len(work.rows)
-    guard, mask = order.guard, order.mask
+    guard, mask, lows = work.guard, work.mask, work.lows
     exponents, low = order.decode(lead), lead & mask
     lcms = {i: _lcm(order, exponents, work.leads[i]) for i in work.active}
     # only where the new leading monomial divides the least common multiple
@@ -262,9 +266,11 @@ def _insert(work: _Work, new: MatrixRow) -> None:
     work.pairs = [p for p in work.pairs if p not in met] if met else work.pairs
     work.pairs += [(lcm, i, h) for lcm, i in _minimal(work, lcms, lead)]
     work.active = [
-        i for i in work.active if (((work.rows[i].codes[0] & mask) | guard) - low) & guard != guard
-    ] + [h]
+        *(i for i in work.active if ((lows[i] | guard) - low) & guard != guard),
+        h,
+    ]
     work.rows.append(new)
+    work.lows.append(low)
     work.leads.append(exponents)
 
 
@@ -287,7 +293,7 @@ def _minimal(work: _Work, lcms: Mapping[int, int], lead: int) -> Iterator[tuple[
     groups: dict[int, list[int]] = {}
     for i, lcm in lcms.items():
         groups.setdefault(lcm, []).append(i)
-    guard, mask, kept = work.order.guard, work.order.mask, list[int]()
+    guard, mask, kept = work.guard, work.mask, list[int]()
     for lcm in sorted(groups):
         high = (lcm & mask) | guard
         if not any((high - low) & guard == guard for low in kept):

@@ -170,7 +170,7 @@ export const start = async (root, call) => {
   function render(measurement, seen, plain) {
     const { look, diagram } = seen;
     const merged = { ...plain.look, record: look.record ?? plain.look.record, quantity: look.quantity, assumed: look.assumed, impedance: look.impedance, columns: look.columns };
-    const picture = diagram ? svg("svg", { id: "diagram", class: `plot ${diagram.kind}`, role: "img" }) : null;
+    const picture = diagram ? svg("svg", { id: "diagram", class: `plot diagram ${diagram.kind}`, role: "img" }) : null;
     const plot = picture ? zoomable(picture, diagram, draw) : null;
     replace(section("read", `What was read: ${measurement.file}`,
       look.doubts.map((doubt) => element("p", { class: "warning" }, doubt)),

@@ -1,5 +1,6 @@
 // Fit of the Data page: candidates, progress, answer, earlier fits.
 import { announce, command, element } from "./dom.js";
+import { showFigures } from "./figures.js";
 import { jobLine } from "./job.js";
 import { onwardPart } from "./onward.js";
 import { twoFits } from "./two-fits.js";
@@ -16,7 +17,7 @@ const answerLine = (text) => {
 };
 
 export const fitSection = ({ call, follow, state, save, trouble, addNext, setQuantity }) => {
-  let shown = null, onward = null;
+  let shown = null, onward = null, both = null;
   const line = jobLine("fit", WORDS);
   const button = element("button", { type: "button", class: "plainbutton main", onclick: () => begin() }, "Fit");
   const masses = element("fieldset", { class: "masses" }, element("legend", {}, "Masses"), [1, 2, 3, 4, 5].map((n) => element("label", {},
@@ -106,30 +107,34 @@ export const fitSection = ({ call, follow, state, save, trouble, addNext, setQua
     frame.addEventListener("load", () => {
       const page = frame.contentDocument?.documentElement;
       if (!page) return;
-      const fitTo = () => { frame.style.height = `${page.scrollHeight + 2}px`; };
+      const fitTo = () => { frame.style.height = `${page.offsetHeight + 2}px`; };
       new ResizeObserver(fitTo).observe(page);
       fitTo();
     });
     const files = SHOWN.filter(([name]) => found.files.includes(name)).map(([name, text]) => element("a", { href: address(found.fit, name), target: name === "fit.html" ? "_blank" : null, rel: "noopener" }, text));
+    const figures = element("div", { class: "figures" });
     const names = (found.request?.measurements ?? []).map(({ file }) => file).join(", ");
     answer.replaceChildren(element("section", { "aria-labelledby": "answer-title" },
       element("h2", { id: "answer-title", tabindex: -1 }, `Answer of fit ${found.fit}: ${names}`),
       element("ul", { class: found.explains ? "lead near" : "lead near warning" }, (found.answer ?? []).map(answerLine)),
       found.quantities?.length ? element("p", {}, "The sensor shows ", found.quantities.map((quantity) => [element("button", { type: "button", class: "plainbutton", onclick: () => setQuantity(quantity).then(begin) }, quantity), " "])) : null,
-      element("p", { class: "links" }, files.flatMap((link) => [link, " "])),
+      figures, element("p", { class: "links" }, files.flatMap((link) => [link, " "])),
       onward.root, element("details", {}, element("summary", {}, "The same fit on the command line"),
         found.command ? command(found.command) : element("p", {}, "The command line reads all files of a fit alike; these are read differently, so no single command gives this fit."))), frame);
+    showFigures(call, found.fit, figures);
     announce(`Fit ${found.fit} is finished.`);
     if (isNew) document.getElementById("answer-title").focus();
   };
 
   const list = async () => {
     const { fits } = await call("fits", {});
+    both?.stop();
+    both = fits.length > 1 ? twoFits(call, fits) : null;
     if (!fits.length) { earlier.replaceChildren(); return fits; }
     earlier.replaceChildren(element("section", { "aria-labelledby": "fits-title" }, element("h2", { id: "fits-title" }, "Fits of this project"),
       element("ul", { class: "near" }, fits.map((found) => element("li", {},
         element("button", { type: "button", class: "plainbutton", "aria-label": `Show fit ${found.fit}`, onclick: () => present(found, true) }, `Fit ${found.fit}`), ` ${(found.request?.measurements ?? []).map(({ file }) => file).join(", ")}: `,
-        found.answer?.[1] ?? found.answer?.[0] ?? ""))), fits.length > 1 ? twoFits(call, fits) : null));
+        found.answer?.[1] ?? found.answer?.[0] ?? ""))), both?.root));
     return fits;
   };
 

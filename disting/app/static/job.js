@@ -12,22 +12,22 @@ export const jobLine = (name, words = {}) => {
   const line = element("p", { class: "progress", hidden: true }, bar, " ", told, " ", stop);
   const troubles = element("p", { class: "trouble", role: "alert" });
   const hear = ({ state, what, done, total }) => {
-    told.textContent = state === "waiting" ? "Waits for another job." : what ? `${words[what] ?? sentence(what)}: ${done} of ${total}` : "Begins.";
-    if (total) { bar.max = total; bar.value = done; } else bar.removeAttribute("value");
+    told.textContent = state === "waiting" ? "Waits for another job." : what ? `${words[what] ?? sentence(what)}${total > 1 ? `: ${done} of ${total}` : " …"}` : "Begins.";
+    if (total > 1) { bar.max = total; bar.value = done; } else bar.removeAttribute("value");
   };
   const run = async (promise) => {
     running = promise;
     line.hidden = false;
     troubles.textContent = "";
     hear({});
+    const isLast = () => running === promise; // a later one has the line
     try {
       return await promise;
     } catch (error) {
-      troubles.textContent = error.message;
+      if (isLast()) troubles.textContent = error.message;
       return null;
     } finally {
-      running = null;
-      line.hidden = true;
+      if (isLast()) { running = null; line.hidden = true; }
     }
   };
   return { root: element("div", {}, line, troubles), hear, run, complain: (text) => { troubles.textContent = text; }, isRunning: () => running !== null };

@@ -21,9 +21,11 @@ const words = (name, found, addNext) => {
     element("details", {}, element("summary", {}, "The same on the command line"), command(found[name].command)));
 };
 
+const ALONE = "Circuits and own models are fitted to one measurement: another one, such as the advised, cannot be added to this fit. In Python, fit_networks fits several responses of models that have as many sensors.";
+
 // {root, watch}: buttons and answers of a fit; `watch(name, promise)` takes a job that already runs.
 export const onwardPart = ({ call, follow, addNext }, found) => {
-  const line = jobLine("computation", STEPS), answers = element("div", {});
+  const isAlone = Boolean(found.request?.models?.length), line = jobLine("computation", STEPS), answers = element("div", {});
   const buttons = Object.entries(ASKED).map(([name, [text]]) => element("button", { type: "button", class: "plainbutton", onclick: () => watch(name, call(name, { fit: found.fit }, line.hear)) }, text));
   const present = () => answers.replaceChildren(...Object.keys(ASKED).filter((name) => found[name]).map((name) => words(name, found, addNext)));
   const watch = async (name, promise) => {
@@ -37,7 +39,7 @@ export const onwardPart = ({ call, follow, addNext }, found) => {
   };
   present();
   return {
-    root: element("div", { class: "onward-part" }, element("p", {}, buttons.flatMap((button) => [button, " "]), element("button", { type: "button", class: "plainbutton", onclick: () => addNext("") }, "Add another measurement of this machine")), line.root, answers),
+    root: element("div", { class: "onward-part" }, element("p", {}, buttons.flatMap((button) => [button, " "]), isAlone ? null : element("button", { type: "button", class: "plainbutton", onclick: () => addNext("") }, "Add another measurement of this machine")), isAlone ? element("p", { class: "hint" }, ALONE) : null, line.root, answers),
     resume: ({ job, name }) => watch(name, follow(job, line.hear)),
   };
 };

@@ -19,9 +19,12 @@ export const around = (view, [x0, y0], [x1, y1], isFlat) => {
   return within({ size, x: view.x + (view.size * (x0 + x1) - size) / 2, y: view.y + (view.size * (y0 + y1) - size) / 2 });
 };
 
+// The window after two fingers at [before] went to [after], places of it; `factor`: their distance before by that after.
+export const pinched = (view, factor, [x0, y0], [x1, y1]) => zoomed(moved(view, x0 - x1, y0 - y1), factor, [x1, y1]);
+
 // The diagram with its keys and buttons: {root, redraw}. `draw(picture, diagram, view)` returns the box of its axes.
 export const zoomable = (picture, diagram, draw) => {
-  const isFlat = diagram.kind === "bode";
+  const isFlat = diagram.kind === "bode", fingers = new Map(), hint = `${picture.id}-hint`;
   let view = WHOLE, box = null, from = null, mark = null;
   const redraw = () => { if (picture.clientWidth) box = draw(picture, diagram, view); };
   const show = (next) => {
@@ -37,7 +40,7 @@ export const zoomable = (picture, diagram, draw) => {
     ...(isFlat ? {} : { ArrowUp: () => moved(view, 0, STEP), ArrowDown: () => moved(view, 0, -STEP) }),
   };
   const button = (text, label, key) => element("button", { type: "button", class: "plainbutton", "aria-label": label, onclick: () => show(keys[key]()) }, text);
-  const frame = element("div", { class: "zoom", tabindex: 0, role: "group", "aria-label": "Diagram", "aria-describedby": "zoom-hint" }, picture);
+  const frame = element("div", { class: "zoom", tabindex: 0, role: "group", "aria-label": "Diagram", "aria-describedby": hint }, picture);
 
   frame.addEventListener("keydown", (event) => {
     if (!(event.key in keys) || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -51,22 +54,40 @@ export const zoomable = (picture, diagram, draw) => {
     show(zoomed(view, event.deltaY < 0 ? CLOSER : 1 / CLOSER, place(pixel(event))));
   }, { passive: false });
   picture.addEventListener("dblclick", () => show(WHOLE));
+  const dropMark = () => { mark?.remove(); from = mark = null; };
+  const two = () => {
+    const [a, b] = fingers.values();
+    return { middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], apart: Math.max(Math.hypot(a[0] - b[0], a[1] - b[1]), CLICK) };
+  };
+  // The browser would scroll or zoom the page instead.
+  picture.addEventListener("touchmove", (event) => { if (event.touches.length > 1) event.preventDefault(); }, { passive: false });
   picture.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    from = pixel(event);
+    if (event.button !== 0 || fingers.size > 1) return;
+    fingers.set(event.pointerId, pixel(event));
+    if (fingers.size > 1) dropMark();
+    else from = pixel(event);
     picture.setPointerCapture(event.pointerId);
   });
   picture.addEventListener("pointermove", (event) => {
-    if (!from) return;
-    const [x, y] = pixel(event), [left, top, width, height] = box;
-    mark?.remove();
-    mark = svg("rect", { class: "chosen", x: Math.min(x, from[0]), y: isFlat ? top : Math.min(y, from[1]), width: Math.abs(x - from[0]), height: isFlat ? height : Math.abs(y - from[1]) });
-    picture.append(mark);
+    if (!fingers.has(event.pointerId)) return;
+    const before = fingers.size > 1 ? two() : null, [x, y] = pixel(event);
+    fingers.set(event.pointerId, [x, y]);
+    if (before) {
+      const now = two();
+      view = pinched(view, before.apart / now.apart, place(before.middle), place(now.middle));
+      redraw();
+    } else if (from) {
+      const [left, top, width, height] = box;
+      mark?.remove();
+      mark = svg("rect", { class: "chosen", x: Math.min(x, from[0]), y: isFlat ? top : Math.min(y, from[1]), width: Math.abs(x - from[0]), height: isFlat ? height : Math.abs(y - from[1]) });
+      picture.append(mark);
+    }
   });
   const end = (event) => {
+    if (fingers.size > 1) announce(picture.getAttribute("aria-label"));
+    fingers.delete(event.pointerId);
     const begun = from, to = pixel(event);
-    mark?.remove();
-    from = mark = null;
+    dropMark();
     const far = begun && Math.max(Math.abs(to[0] - begun[0]), isFlat ? 0 : Math.abs(to[1] - begun[1])) > CLICK;
     if (far && event.type === "pointerup") show(around(view, place(begun), place(to), isFlat));
   };
@@ -76,6 +97,6 @@ export const zoomable = (picture, diagram, draw) => {
   const buttons = element("p", { class: "zoom-keys" }, button("+", "Zoom in", "+"), button("−", "Zoom out", "-"),
     button("←", "Move left", "ArrowLeft"), button("→", "Move right", "ArrowRight"),
     isFlat ? null : [button("↑", "Move up", "ArrowUp"), button("↓", "Move down", "ArrowDown")], button("Show all", "Show the whole diagram", "0"),
-    element("span", { class: "hint", id: "zoom-hint" }, "Drag over a range to zoom in; the wheel zooms after a click. Keys: + and −, arrows, 0 for all."));
+    element("span", { class: "hint", id: hint }, "Drag over a range to zoom in, or pinch; the wheel zooms after a click. Keys: + and −, arrows, 0 for all."));
   return { root: element("div", {}, frame, buttons), redraw };
 };

@@ -36,6 +36,7 @@ q; D is a derivative of it, which multiplies its coefficients by its degree at m
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import ceil, log2
 from operator import ge
 from time import process_time
@@ -49,6 +50,7 @@ from disting.fibres.ideals.fibre_ideal import FibreIdeal, fibre_ideal
 from disting.fibres.ideals.membership import NO_BOUND, OUT_OF_TIME, GivenUp, Limits
 from disting.fibres.ideals.system import PolynomialMap
 
+REMEMBERED = 8  # fibres: those of one model, of which two statements are asked one after the other
 LIMITS = Limits(seconds=20.0, entries=2_000_000, safety=LEAST_SAFETY + 8)
 
 
@@ -83,7 +85,7 @@ def one_value(model: PolynomialMap, names: Iterable[str], *, seed: str) -> Value
         return ValueCounts(reason=NO_BOUND)
     runs = ceil((LIMITS.safety + ceil(log2(len(wanted) + 1))) / each)
     deadline = process_time() + LIMITS.seconds
-    label = about(f"one value:{seed}", model.content)
+    label = _label(model, seed)
     single: dict[str, bool] = {}
     try:
         for run in range(runs):
@@ -117,13 +119,13 @@ def safety_of_count(model: PolynomialMap, known: int, *, seed: str) -> int:
         return 0
     runs = ceil(LIMITS.safety / each)
     deadline = process_time() + LIMITS.seconds
-    label = about(f"count:{seed}", model.content)
+    label = _label(model, seed)
     for run in range(runs):
-        ideal = fibre_ideal(model, model, f"{label}:{run}", equal_rank=True)
+        ideal = _own_fibre(model, f"{label}:{run}")
         if ideal.fixed:
             return 0
         try:
-            basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, deadline)
+            basis = _basis_at(model, f"{label}:{run}", deadline)
         except GivenUp:
             return 0
         leads = [basis.order.decode(row.codes[0]) for row in basis.rows]
@@ -151,8 +153,7 @@ def _at_point(
     model: PolynomialMap, names: Iterable[str], label: str, deadline: float
 ) -> Iterator[tuple[str, bool]]:
     """Yield whether each parameter has no other value in the fibre of one random point."""
-    ideal = fibre_ideal(model, model, label, equal_rank=True)
-    basis = _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, deadline)
+    ideal, basis = _own_fibre(model, label), _basis_at(model, label, deadline)
     if basis.is_one:
         raise ContradictionError("a point does not lie in its own fibre")
     origin = dict(zip(model.parameters, ideal.point, strict=True))
@@ -164,6 +165,42 @@ def _at_point(
         at, value = ideal.unknowns.index(name), origin[name]
         is_single = _is_given(rows, at, value, ideal.modulus)
         yield name, is_single or _has_no_other(ideal, rows, at, value, deadline)
+
+
+def _label(model: PolynomialMap, seed: str) -> str:
+    """The label of the random points: one for both statements, so that the bases of their fibres
+    are computed once. Each bound holds for itself.
+    """
+    return about(f"one value:{seed}", model.content)
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _own_fibre(model: PolynomialMap, label: str) -> FibreIdeal:
+    return fibre_ideal(model, model, label, equal_rank=True)
+
+
+def _basis_at(model: PolynomialMap, label: str, deadline: float) -> Basis:
+    """The Gröbner basis of the fibre of one random point; raises GivenUp."""
+    found = _own_basis(model, label)
+    if isinstance(found, GivenUp):
+        raise GivenUp(str(found))
+    _check_time(deadline)
+    return found
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _own_basis(model: PolynomialMap, label: str) -> Basis | GivenUp:
+    """The basis, or why it is given up: the second statement would give it up again."""
+    ideal, deadline = _own_fibre(model, label), process_time() + LIMITS.seconds
+    try:
+        return _basis(ideal.generators, len(ideal.unknowns), ideal.modulus, deadline)
+    except GivenUp as why:
+        return why
+
+
+def _check_time(deadline: float) -> None:
+    if process_time() > deadline:
+        raise GivenUp(f"{OUT_OF_TIME} ({LIMITS.seconds:g} s)")
 
 
 def _is_given(rows: Iterable[Sparse], at: int, value: int, modulus: int) -> bool:
@@ -205,8 +242,7 @@ def _basis(generators: Iterable[Sparse], size: int, modulus: int, deadline: floa
                 return step
             if step > LIMITS.entries:
                 raise GivenUp(f"too large: a matrix of {step} entries")
-            if process_time() > deadline:
-                raise GivenUp(f"{OUT_OF_TIME} ({LIMITS.seconds:g} s)")
+            _check_time(deadline)
     except TooLarge as error:
         raise GivenUp(f"too large: {error}") from None
     raise AssertionError("a Gröbner basis ends with a basis")

@@ -38,9 +38,9 @@ from disting.fit.judge.explanation import (
     yardsticks,
 )
 from disting.fit.search.candidates import reference
-from disting.fit.search.cost import comparable
+from disting.fit.search.cost import CostOfEach, Indices, comparable
 from disting.fit.search.data import WhitenedCost
-from disting.fit.search.descent import Indices, fine
+from disting.fit.search.descent import rough
 from disting.fit.search.estimate import Estimate, Task
 from disting.fit.search.joint import AnyCost, JointCost
 from disting.fit.search.setup import measured_chain
@@ -124,7 +124,8 @@ def in_words(determined: Sequence[Formula]) -> str:
 
 
 FOLDS = 5  # of the cross-validation
-FOLD_GAIN = 1e-6  # relative gain of cost at which the fit of a fold ends
+FOLD_GAIN = 1e-6  # relative gain of cost at which the fit of a fold ends,
+FOLD_STEPS = 100  # or so many steps after the fit to all lines
 AT_BOUND = 1e-6  # relative distance at which a parameter counts as being at its bound
 OUTSIDE = 0.05  # probability of true values outside of what is said of them
 WITNESSES = 5  # best candidates that help to see how much the data scatter
@@ -349,12 +350,10 @@ def _expect_residuals(
     ones = np.ones(len(columns))
     if test is not None:
         return expected_deviation(task.cost.of(plant, p)[1][:, free], sigma, columns, ones)
-    rows = np.concatenate([np.tile(fold, 2) for fold in _folds(task.cost)])
-    for fold in range(FOLDS):
-        kept = _without(task, fold).cost.of(plant, p)[1][:, free]
-        ones[rows == fold] = expected_deviation(
-            kept, sigma, columns[rows == fold], ones[rows == fold]
-        )
+    fitted = task.cost.of(plant, p)[1][:, free]
+    for seen in _seen(task.cost):
+        out = seen == 0
+        ones[out] = expected_deviation(fitted * seen[:, None], sigma, columns[out], ones[out])
     return ones
 
 
@@ -363,9 +362,12 @@ def _folds(cost: AnyCost) -> list[Indices]:
     return [np.arange(len(part.measured)) % FOLDS for part in cost.parts]
 
 
-def _without(task: Task, fold: int) -> Task:
-    """The task without the lines of one fold."""
-    return replace(task, cost=task.cost.without(np.concatenate(_folds(task.cost)) == fold))
+def _seen(cost: AnyCost) -> Real:
+    """Residuals that the fit without each fold sees, shape (FOLDS, n_y): 1, and 0 for those of the
+    lines of the fold.
+    """
+    rows = np.concatenate([np.tile(fold, 2) for fold in _folds(cost)])
+    return np.asarray(rows != np.arange(FOLDS)[:, None], dtype=float)
 
 
 def _at(chain: Chain, task: Task, cost: AnyCost, p: Real) -> Complex:
@@ -376,12 +378,8 @@ def _cross_validate(estimate: Estimate, task: Task, p: Real) -> Complex:
     """The response at each line of the fit to the other folds, shape (n_f,)."""
     if not task.box(task.names(estimate.chain)).free.any():
         return _at(estimate.chain, task, task.cost, p)  # no fit sees any line
-    plant = task.plant(estimate.chain)
+    plant, box = task.plant(estimate.chain), task.box(task.names(estimate.chain))
+    starts, cost = np.tile(p, (FOLDS, 1)), CostOfEach(task.cost, _seen(task.cost))
+    ends, _ = rough(plant, cost, box, starts, FOLD_STEPS, FOLD_GAIN)
     at = np.concatenate(_folds(task.cost))
-    whole = np.empty(len(at), dtype=np.complex128)
-    for fold in range(FOLDS):
-        kept = _without(task, fold)
-        box = kept.box(task.names(estimate.chain))
-        refined, _ = fine(kept.plant(estimate.chain), kept.cost, box, p, FOLD_GAIN)
-        whole[at == fold] = plant.response(refined)[at == fold]
-    return whole
+    return np.asarray(plant.response(ends)[at, np.arange(len(at))])

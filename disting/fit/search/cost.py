@@ -30,6 +30,7 @@ from disting.model.chain import Chain, Structure
 from disting.model.presentation import plural, summary
 from disting.statistics.scatter import Scatter
 
+Indices = NDArray[np.intp]
 NOISE = 3.0  # times the usual step of a response from line to line: what noise may make
 
 
@@ -72,6 +73,10 @@ class SquaredCost(ABC):
     def sensitivity(self, response: Complex, gradient: Complex) -> Real:
         """S, shape (..., 2 n_f, n_p), from G and d ln G / d p, shape (..., n_p, n_f)."""
 
+    def of_starts(self, at: Indices) -> "SquaredCost":
+        """The cost of the starts `at` of a search from several: the same of all."""
+        return self
+
     def total(self, response: Complex) -> Real:
         """J of (6), (12) or (14), shape (...)."""
         residual = self.residual(response)
@@ -84,6 +89,33 @@ class SquaredCost(ABC):
         response, gradient = plant.logarithmic_gradient(p)
         gradient *= p[..., None]
         return self.residual(response), self.sensitivity(response, gradient)
+
+
+@dataclass(frozen=True, eq=False)
+class CostOfEach(SquaredCost):
+    """A cost of which each start of a search sees some residuals: `seen`, shape (n_s, N_y), is 1
+    for those and 0 for the others.
+    """
+
+    whole: SquaredCost
+    seen: Real
+
+    @property
+    def n_residuals(self) -> int:
+        """N_y, seen or not."""
+        return self.whole.n_residuals
+
+    def of_starts(self, at: Indices) -> "CostOfEach":
+        """The same of some of the starts."""
+        return CostOfEach(self.whole, self.seen[at])
+
+    def residual(self, response: Complex) -> Real:
+        """Residuals, shape (n_s, N_y), of one response a start; 0 where it is not seen."""
+        return self.whole.residual(response) * self.seen
+
+    def sensitivity(self, response: Complex, gradient: Complex) -> Real:
+        """S, shape (n_s, N_y, n_p), likewise."""
+        return self.whole.sensitivity(response, gradient) * self.seen[..., None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,11 +238,6 @@ class Cost(SquaredCost):
     def on(self, chain: Chain) -> "Cost":
         """Of the responses that a chain has: every chain has this one."""
         return self
-
-    def without(self, out: NDArray[np.bool_]) -> "Cost":
-        """The cost with weight zero for some lines, shape (n_f,)."""
-        lines = np.ones(len(self.measured)) if self.lines is None else self.lines
-        return replace(self, lines=np.where(out, 0.0, lines))
 
     def thinned(self, count: int) -> "Cost":
         """The cost of `count` of the lines, half of them evenly spaced on a logarithmic scale, half

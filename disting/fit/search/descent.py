@@ -9,14 +9,11 @@ the stopping rule are those of scipy.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from disting.fit.search.cost import SquaredCost
+from disting.fit.search.cost import Indices, SquaredCost
 from disting.fit.search.plant import Differentiable
 from disting.measurement.arrays import Real
-
-Indices = NDArray[np.intp]
 
 # starts at once: more do not fit into a processor's cache, which costs half as much again
 BATCH = 8
@@ -57,10 +54,15 @@ class Box:
 
 
 def rough(
-    plant: Differentiable, cost: SquaredCost, box: Box, starts: Real, iterations: int
+    plant: Differentiable,
+    cost: SquaredCost,
+    box: Box,
+    starts: Real,
+    iterations: int,
+    gain: float = WORTHLESS,
 ) -> tuple[Real, Real]:
     """Points, shape (n_s, n_p), and costs, shape (n_s,), after at most so many steps from each
-    start.
+    start, which ends where a step gains less than the share `gain` of its cost.
 
     None is dropped for a larger cost: the start that leads to the best optimum is often worse than
     half of the others for long.
@@ -71,7 +73,9 @@ def rough(
     active = np.arange(len(points))
     batch = max(1, min(BATCH, RESIDUALS // cost.n_residuals))
     for part in _batches(active, batch):
-        costs[part], curvature[part], slope[part] = _normal(plant, cost, box, points[part])
+        costs[part], curvature[part], slope[part] = _normal(
+            plant, cost.of_starts(part), box, points[part]
+        )
     costs[np.isnan(costs)] = np.inf
     for _ in range(iterations):
         for part in _batches(active, batch):
@@ -80,9 +84,9 @@ def rough(
             )
             # Most steps lead downwards: their slope is computed along with their cost, which saves
             # a response a step.
-            reached, *rows = _normal(plant, cost, box, tried)
+            reached, *rows = _normal(plant, cost.of_starts(part), box, tried)
             better = reached < costs[part]
-            settled = better & (reached > costs[part] * (1 - WORTHLESS))
+            settled = better & (reached > costs[part] * (1 - gain))
             damping[part] *= np.where(better, 0.2, 8.0)
             damping[part[settled]] = np.inf
             won = part[better]

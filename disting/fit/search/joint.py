@@ -235,11 +235,6 @@ class JointCost(SquaredCost):
         parts, setups = zip(*kept, strict=True)
         return JointCost(parts, setups, self.delays)
 
-    def without(self, out: NDArray[np.bool_]) -> "JointCost":
-        """The cost with weight zero for some lines, shape (n_f,)."""
-        each = zip(self.parts, self.by_line(out), strict=True)
-        return replace(self, parts=tuple(part.without(own) for part, own in each))
-
     def thinned(self, count: int) -> "JointCost":
         """The cost of at most so many lines of each response; itself if there are no more."""
         parts = tuple(part.thinned(count) for part in self.parts)

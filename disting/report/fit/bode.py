@@ -142,11 +142,17 @@ def _short(label: str) -> str:
 
 
 def model_line(
-    candidate: Candidate, task: Task, measured: Sequence[FrequencyResponse], at: int = 0
+    candidate: Candidate,
+    task: Task,
+    measured: Sequence[FrequencyResponse],
+    at: int = 0,
+    count: int = POINTS,
 ) -> Line:
-    """The model between the lowest and the highest measured line, at every measured line too."""
+    """The model at `count` frequencies between the lowest and the highest measured line, at every
+    measured line too.
+    """
     lines = np.concatenate([m.omega for m in measured])
-    omega = np.unique(np.concatenate([lines, np.geomspace(lines.min(), lines.max(), POINTS)[1:-1]]))
+    omega = np.unique(np.concatenate([lines, np.geomspace(lines.min(), lines.max(), count)[1:-1]]))
     response = response_of(candidate, task, omega, at)
     phase = np.degrees(np.unwrap(np.angle(response)))
     highest = HIGHEST + 90 * measured[0].quantity.order

@@ -49,10 +49,14 @@ class NetworkLine:
         return np.asarray(near + np.degrees(np.angle(measured.G / self.at(measured))))
 
 
-def network_line(fit: FittedNetwork, selection: NetworkSelection, at: int) -> NetworkLine:
-    """Return the line of response `at`, counted from 0, over the measured band."""
+def network_line(
+    fit: FittedNetwork, selection: NetworkSelection, at: int, count: int = POINTS
+) -> NetworkLine:
+    """Return the line of response `at`, counted from 0, over the measured band: at `count`
+    frequencies and at every measured line.
+    """
     measured, p = selection.measured[at], np.array(list(fit.values.values()))
-    between = np.geomspace(measured.omega[0], measured.omega[-1], POINTS)[1:-1]
+    between = np.geomspace(measured.omega[0], measured.omega[-1], count)[1:-1]
     omega = np.union1d(measured.omega, between)
     omegas = [r.omega[:1] for r in selection.measured]
     plant = network_plant(fit.network, [*omegas[:at], omega, *omegas[at + 1 :]])

@@ -26,7 +26,7 @@ from disting.report.fit.plan_words import larger_in_words
 from disting.verdict.engine import Engine, Progress
 from disting.verdict.menu_text import BRIEF, DOMAIN, describe_menu, menu_text
 from disting.verdict.next_experiments import Menu, menu_for
-from disting.verdict.next_words import CSV_COLUMNS, rows, to_dict
+from disting.verdict.next_words import CSV_COLUMNS, anywhere, rows, to_dict
 
 AGAIN = "then fit the new measurement, NEW, together with these data:"
 Table = Iterator[Sequence[str]]
@@ -57,8 +57,17 @@ class NetworkAdvice:
 
     @property
     def first(self) -> str:
-        """The first sentence."""
-        return self.sentences[0]
+        """The first sentence: what separates the first group, if anything separates all of it, or
+        that there is nothing to separate.
+        """
+        group = next(iter(self.groups), None)
+        enough = anywhere(group) if group else ""
+        if group is None and len(self.noise) == 1:
+            return "; ".join(self.sentences)
+        if group is None or not enough:
+            return self.sentences[0]
+        names = enumeration(group.names, BAR)
+        return f"this measurement cannot distinguish {names}; what separates all of them: {enough}"
 
     @property
     def warnings(self) -> list[str]:

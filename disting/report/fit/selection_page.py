@@ -36,6 +36,7 @@ from disting.report.fit.words import (
     name,
     percent,
     readable,
+    values_in_words,
 )
 from disting.report.words import plural, with_and
 from disting.verdict.result import Relation
@@ -69,6 +70,7 @@ ALWAYS = {
     "readable": readable,
     "percent": percent,
     "plural": plural,
+    "values_in_words": values_in_words,
 }  # what the template uses of every selection
 CERTAIN = 2  # starts that reach the best cost, at least
 

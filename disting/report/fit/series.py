@@ -119,9 +119,9 @@ def band(
     )
 
 
-def corners(x: Real, *curves: Real) -> NDArray[np.intp]:
-    """Indices of points, straight lines between which stay within `FINE` of each curve's range; a
-    band has few of them.
+def corners(x: Real, *curves: Real, fine: float = FINE) -> NDArray[np.intp]:
+    """Indices of points, straight lines between which stay within a share `fine` of each curve's
+    range; a band has few of them.
 
     (D. H. Douglas, T. K. Peucker, Algorithms for the reduction of the number of points, 1973.)
     """
@@ -134,7 +134,7 @@ def corners(x: Real, *curves: Real) -> NDArray[np.intp]:
         share = (x[i + 1 : j] - x[i]) / (x[j] - x[i])
         straight = scaled[:, [i]] + share * (scaled[:, [j]] - scaled[:, [i]])
         apart = np.abs(scaled[:, i + 1 : j] - straight).max(axis=0)
-        if apart.max() > FINE:
+        if apart.max() > fine:
             middle = i + 1 + int(apart.argmax())
             kept.add(middle)
             open_spans += [(i, middle), (middle, j)]

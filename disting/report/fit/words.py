@@ -1,5 +1,6 @@
 """Numbers, units and names of models as pages and figures of a fit write them."""
 
+from collections.abc import Mapping
 from math import floor, inf, isfinite, log10, pi
 
 from disting.fit.judge.admissible import UNDETERMINED
@@ -13,6 +14,7 @@ from disting.measurement.units import unit_as
 from disting.model.chain import Chain, Damper, Quantity
 from disting.report.words import plural
 
+NOTHING = 1e-12  # of the largest value of a kind: rounding of a response hides what is smaller
 NEGLIGIBLE = 1e-7  # relative standard error that is not worth printing
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOTIONS = {
@@ -64,6 +66,20 @@ def plain(value: float, digits: int) -> str:
 
 def _shorten(text: str) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def values_in_words(values: Mapping[str, float]) -> str:
+    """Values of parameters; as zero what is nothing beside another one of its kind: a search that
+    runs to the limit at which an element is missing ends at digits that mean nothing.
+
+    >>> values_in_words({"m1": 0.25, "m2": 1.2e-31, "k12": 124860.0})
+    'm1 = 0.25, m2 ≈ 0, k12 = 1.2486·10⁵'
+    """
+    largest = {name[0]: max(v for n, v in values.items() if n[0] == name[0]) for name in values}
+    return ", ".join(
+        f"{name} ≈ 0" if value < NOTHING * largest[name[0]] else f"{name} = {readable(value, 5)}"
+        for name, value in values.items()
+    )
 
 
 def with_error(value: float, error: float) -> str:
