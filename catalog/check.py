@@ -23,7 +23,7 @@ import time
 from collections import Counter, namedtuple
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache
-from itertools import combinations, count, permutations
+from itertools import combinations, compress, count, permutations, product
 from operator import mul as times
 from pathlib import Path
 
@@ -241,7 +241,11 @@ def named(name, a, b):
 
 def model(text, elements, force, sensor, order=0, fixed=0, lag=False, delay=False, names=None):
     """`fixed`: power of s on the whole diagonal (1 for compartments)."""
-    nodes = max([*force, *sensor, *(x for e in elements for x in (e.a, e.b))])
+    ends = [*force, *sensor, *(x for e in elements for x in (e.a, e.b))]
+    sources = [e.a for e in elements if e.kind == "f"] + [max(x) for x in (force, sensor)]
+    if min(ends) < 0 or min(sources) < 1 or {*map(type, ends)} != {int}:
+        raise ValueError(f"no nodes: {text}")
+    nodes = max(ends)
     names = tuple(names or sorted(e.name for e in elements))
     if len(set(names)) < len(names):
         raise ValueError(f"one name for two elements: {text}")
@@ -255,11 +259,19 @@ def between(i, j):
     return f"{i}{j}"
 
 
+def is_proper(n, gap, am, ap, mm, mp):
+    """Whether ports are in the rows to which they belong."""
+    below = range(1, gap + 1) if gap else (0,)
+    return 0 <= gap < n and {am, mm} <= {*below} and {ap, mp} <= {*range(gap + 1, n + 1)}
+
+
 @cache
 def chain(n, gap, am, ap, mm, mp, damped, dampers=(), lag=False, delay=False, order=2):
     """Masses in a row, joints between neighbours but for the gap, the first one at the ground
     where there is a gap; force between `am` and `ap`, sensor between `mm` and `mp`, 0: ground.
     """
+    if not is_proper(n, gap, am, ap, mm, mp) or not {*dampers} <= {*range(1, n + 1)}:
+        raise ValueError("no chain has these indices")
     joints = [i for i in range(n) if i != gap]
     parts = [element("m", f"m{i}", i, 0) for i in range(1, n + 1)]
     parts += [element("k", f"k{i}{i + 1}", i, i + 1) for i in joints]
@@ -463,6 +475,8 @@ class Profile:
         # s^n of a constant phase element becomes s^(7/2): equal functions stay equal
         plain = [e._replace(power=3.5, exponent="") if e.exponent else e for e in m.elements]
         m = m._replace(elements=tuple(plain))
+        if any(scale * e.power % 1 for e in plain):
+            raise ValueError("roots of s")
         self.model, self.p = m, prime_of(f"{m.nodes} nodes")
         self.values = draw(m.text, m.names, self.p)
         self._compute(scale)
@@ -645,7 +659,15 @@ def core_of(e):
 
 def shows(e):
     """Relations that evidence of this kind can show."""
-    return SHOWS.get(core_of(e)["kind"], ())
+    core = core_of(e)
+    if core["kind"] != "both ways":
+        return SHOWS.get(core["kind"], ())
+    shares = tuple(sorted({core[side]["share"] for side in ("left", "right")}))
+    return BOTH.get(shares, ())
+
+
+BOTH = {("always",): (SAME,), ("never",): (DIFFERENT,), ("sometimes",): (SOMETIMES,)}
+BOTH["always", "sometimes"] = (SOMETIMES,)
 
 
 def result(is_right, why):
@@ -718,6 +740,7 @@ def free_choice(pair, e):
     a, b = sides(pair)
     free, size = set(e["free"]), e["rank"]
     right = a.varying == b.varying == free and a.full_rank == b.full_rank == size == len(free)
+    right = right and not a.model.delay and not b.model.delay
     right = right and a.degrees == b.degrees and a.constants == b.constants
     return result(right, "coefficients, ranks and constants computed again")
 
@@ -903,6 +926,8 @@ def witnesses(pair, e):
     same function. That an exact one is near it, and that another point has none, is not repeated.
     """
     given, other = pair[:2] if e["with_left_given"] else pair[1::-1]
+    if any(re.search(r"[eE][+-]?\d{3}", v) for k in ("point_with", "equivalent") for _, v in e[k]):
+        return result(False, "a number that is too long")
     x, y = ({n: Fraction(v) for n, v in e[k]} for k in ("point_with", "equivalent"))
     without = (pair.left if e["without_left_given"] else pair.right).names
     if [set(x), set(y), {n for n, _ in e["point_without"]}] != [
@@ -999,6 +1024,8 @@ def inequality(pair, e):
     if e["domain"] != "positive":
         return result(False, "signs of terms are those at positive parameters")
     signs = []
+    if any(type(number_) is not int for number_, _, _ in e["form"]):
+        return result(False, "numbers that are none")
     for m in (given, other):
         num, den = symbolic(m)
         if [max(num), max(den)] != profile(m, pair.scale).degrees:
@@ -1064,8 +1091,6 @@ def connected(way, parts):
 
 def parts_of(m):
     """{(node, node): part} when all parts in parallel or in series are connected."""
-    if m.fixed:
-        raise NotImplementedError("replacement of compartments")
     ends, parts = {*m.force, *m.sensor}, {}
 
     def put(a, b, part):
@@ -1073,7 +1098,8 @@ def parts_of(m):
         parts[key] = connected("parallel", [parts[key], part]) if key in parts else part
 
     for e in m.elements:
-        put(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power))
+        if e.a != e.b:
+            put(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power))
     while True:
         at = {}
         for key in parts:
@@ -1087,26 +1113,211 @@ def parts_of(m):
             put(*(x for key in at[inner] for x in key if x != inner), connected("series", row))
 
 
+def numberings(first, others):
+    """Yield all numbers of nodes, the first ones in order."""
+    if len(others) > 7:
+        raise NotImplementedError("many nodes")
+    for order in permutations(sorted(others)):
+        yield {x: i for i, x in enumerate((*dict.fromkeys(first), *order))}
+
+
 @cache
 def normal_form(m):
     """The parts and the ports, in the numbering that comes first: force and sensor may be
     exchanged, and the signs of both reversed.
     """
+    if m.fixed:
+        return form_of_compartments(m)
     parts = parts_of(m)
-    nodes = sorted({*m.force, *m.sensor, *(x for key in parts for x in key)})
-    found = []
-    for numbers in permutations(range(len(nodes))):
-        to = dict(zip(nodes, numbers))
-        drawn = sorted((*sorted(to[x] for x in key), part) for key, part in parts.items())
-        ports = [tuple(to[x] for x in port) for port in (m.force, m.sensor)]
-        for pair in (ports, ports[::-1]):
-            found += [(pair, repr(drawn)), ([port[::-1] for port in pair], repr(drawn))]
+    parts = parts if len(parts) == 1 else full_set(m) or parts
+    others, found = {x for key in parts for x in key} - {*m.force, *m.sensor}, []
+    for pair in ((m.force, m.sensor), (m.sensor, m.force)):
+        for force, sensor in (pair, [port[::-1] for port in pair]):
+            for to in numberings((*force, *sensor), others):
+                drawn = sorted((*sorted(to[x] for x in key), part) for key, part in parts.items())
+                found.append(([to[x] for x in (*force, *sensor)], repr(drawn)))
     return min(found)
+
+
+def full_set(m):
+    """{(node, node): part} of a one-port of two kinds of elements, not in series and parallel, that
+    gives all of K(n, c, z): a part of this set remains where some of its elements vanish or become
+    rigid.
+    """
+    powers = sorted({e.power for e in m.elements})
+    if {*m.force} != {*m.sensor} or len(powers) != 2 or m.exponents:
+        return None
+    in_x = (e._replace(power=powers.index(e.power)) for e in m.elements)
+    x = profile(m._replace(elements=tuple(in_x), order=0))
+    c, z = int(x.degrees[0] == x.degrees[1]), int(x.den[0] == 0)
+    part = "two", *powers, x.degrees[1] - z, c, z
+    return {m.force: part} if any([*rest.values()] == [part] for rest in minors(m, 3)) else None
+
+
+def minors(m, most):
+    """Yield the parts of what remains where up to so many elements vanish or become rigid."""
+    for k in range(most + 1):
+        for out, rigid in product(combinations(m.elements, k), product((False, True), repeat=k)):
+            at = list(range(m.nodes + 1))
+            for e in compress(out, rigid):
+                at = [at[e.a] if x == at[e.b] else x for x in at]
+            kept = (e for e in m.elements if e not in out)
+            kept = tuple(e._replace(a=at[e.a], b=at[e.b]) for e in kept)
+            force, sensor = (tuple(at[x] for x in port) for port in (m.force, m.sensor))
+            yield parts_of(m._replace(elements=kept, force=force, sensor=sensor))
+
+
+# compartments: outflows that may be moved, trees that hang at one compartment
+
+
+def reached(start, flows, closed=None):
+    """Compartments to which flows lead, past a closed one."""
+    found, todo = set(), [start]
+    while todo:
+        if (x := todo.pop()) not in found | {closed}:
+            found.add(x)
+            todo += [b for a, b in flows if a == x]
+    return found
+
+
+def moved_outflows(flows, leaky, given, seen):
+    """Compartments whose outflows do as well as these, if the one that is seen has a way out: the
+    first that no way to x avoids, and only the two of the ports if both are among them.
+    """
+    if not leaky & reached(seen, flows):
+        return leaky
+    here = {given, seen, *(x for flow in flows for x in flow)}
+    ways = {c: reached(given, flows, c) | reached(seen, flows, c) for c in here}
+    gates = {x: {c for c in here if x not in ways[c]} for x in here}
+    leaky = {c for x in leaky for c in gates[x] if gates[c] == {c}}
+    return {given, seen} if {given, seen} <= leaky else leaky
+
+
+def form_of_compartments(m):
+    """The flows, and of each compartment how many hang at it in trees and whether there is an
+    outflow: in the numbering that comes first, flows turned round where input and output are one.
+    """
+    (given, _), (seen, _) = m.force, m.sensor
+    flows = {(e.a, e.b) for e in m.elements}
+    here = reached(given, flows) & reached(seen, [flow[::-1] for flow in flows])
+    if not here:
+        raise ValueError(f"no response: {m.text}")
+    leaky = {a for a, b in flows if a in here and b not in here}
+    flows = {(a, b) for a, b in flows if {a, b} <= here}
+    leaky, hanging = moved_outflows(flows, leaky, given, seen), dict.fromkeys(here, 0)
+    while True:
+        near = {x: {b for a, b in flows if a == x} for x in hanging}
+        before = {x: {a for a, b in flows if b == x} for x in hanging}
+        free = hanging.keys() - {given, seen}
+        x = next((x for x in sorted(free) if len(near[x]) == 1 and near[x] == before[x]), None)
+        if x is None:
+            break
+        (y,) = near[x]
+        hanging[y] += hanging.pop(x) + 1
+        leaky = leaky - {x} | ({y} if x in leaky else set())
+        flows = {flow for flow in flows if x not in flow}
+    found = []
+    for to in numberings((given, seen), free):
+        at = [(hanging[x], x in leaky) for x in to]
+        drawn = sorted((to[a], to[b]) for a, b in flows)
+        found += [(at, drawn)] + [(at, sorted((b, a) for a, b in drawn))] * (given == seen)
+    return given == seen, *min(found)
 
 
 def replaceable(a, b):
     """Whether two networks become the same when parts are labelled by what they can produce."""
     return factors(a) == factors(b) and normal_form(a) == normal_form(b)
+
+
+# undamped machines: the places of springs to the ground, and zeros that lie between poles
+# (disting/guide/replacement.md and positive-values.md)
+
+
+def masses_and_springs(m):
+    """Both, where there is one mass at each node, and nothing but springs beside them."""
+    masses, springs = ([e for e in m.elements if e.kind == kind] for kind in "mk")
+    is_whole = sorted((e.a, e.b) for e in masses) == [(i, 0) for i in range(1, m.nodes + 1)]
+    if not is_whole or len(masses) + len(springs) < len(m.elements):
+        raise NotImplementedError("no undamped machine")
+    return masses, springs
+
+
+def grounded_everywhere(m):
+    """The machine with a spring to the ground at each mass, which gives the same if springs join
+    all masses, some spring is at the ground, and force and sensor are at one mass each.
+    """
+    masses, springs = masses_and_springs(m)
+    inner = [e for e in springs if e.a * e.b]
+    is_whole = len(joined_nodes(inner, range(1, m.nodes + 1))) == 1
+    if not is_whole or len(inner) == len(springs) or min(m.force) or min(m.sensor):
+        raise NotImplementedError("places of springs to the ground")
+    at_ground = [element("k", f"k{e.a} ground", e.a, 0) for e in masses]
+    return model(m.text, (*masses, *inner, *at_ground), m.force, m.sensor, m.order)
+
+
+def joined_nodes(springs, nodes):
+    """Nodes that springs join without the other nodes and the ground."""
+    pairs = [(e.a, e.b) for e in springs if {e.a, e.b} <= {*nodes}]
+    of = classes(pairs + [(x, x) for x in nodes])
+    return [[x for x in nodes if of[x] == number_] for number_ in sorted({*of.values()})]
+
+
+def is_held_tree(m, springs):
+    """Whether these join the masses as a tree, and one of them is at the ground."""
+    grounded = sum(not e.a * e.b for e in springs)
+    is_whole = len(joined_nodes(springs, range(1, m.nodes + 1))) == 1
+    return is_whole and len(springs) == m.nodes and grounded == 1
+
+
+def part_at(m, x, springs, nodes, s):
+    """Determinant of these masses at s, the others held, without the factor s^2 of a free part."""
+    to = {node: i for i, node in enumerate(nodes, 1)}
+    own = [e for e in m.elements if e.kind == "m" or e in springs]
+    own = [e._replace(a=to.get(e.a, 0), b=to.get(e.b, 0)) for e in own]
+    rows = matrix(m._replace(elements=own, nodes=len(nodes)), x.values, s, x.p, {}, 1)[0]
+    is_free = all({e.a, e.b} <= {*nodes} for e in springs if {e.a, e.b} & {*nodes})
+    return reduced(rows, len(nodes), x.p)[2] * pow(s, -2 * is_free, x.p)
+
+
+def zeros_are_of_parts(m, x, springs):
+    """Whether the zeros are the poles of some of the parts that are left where a mass is held or,
+    in a tree, a spring is cut: compared at random places.
+    """
+    ways = [(springs, held) for held in range(1, m.nodes + 1)]
+    if is_held_tree(m, springs):
+        ways += [([e for e in springs if e is not cut], 0) for cut in springs if cut.a * cut.b]
+    spots = [1 + number(f"{m.text} s{i}") % (x.p - 1) for i in range(3)]
+    first = next(i for i, c in enumerate(x.num) if c)
+    wanted = [at(x.num, s, x.p) * pow(s, -first, x.p) for s in spots]
+    for kept, held in ways:
+        parts = joined_nodes(kept, [i for i in range(1, m.nodes + 1) if i != held])
+        values = [[part_at(m, x, kept, part, s) for s in spots] for part in parts]
+        for chosen in product((False, True), repeat=len(parts)):
+            found = [1] * len(spots)
+            for factor in compress(values, chosen):
+                found = [a * b for a, b in zip(found, factor)]
+            if all((a * found[0] - wanted[0] * b) % x.p == 0 for a, b in zip(wanted, found)):
+                return True
+    return False
+
+
+@cache
+def interlaced(m):
+    """(number of masses, powers and sign of the numerator) of an undamped machine that gives all
+    functions whose zeros lie between neighbouring poles, no two between the same; None of others.
+    A tree with one spring to the ground, or a machine that is one without some of its springs.
+    """
+    masses, springs = masses_and_springs(m)
+    x = profile(m)
+    if x.degrees[1] != 2 * m.nodes or not x.den[0] or not zeros_are_of_parts(m, x, springs):
+        return None
+    num = symbolic(m)[0]
+    found = m.nodes, sorted(num), {v > 0 for v in num[min(num)].values()}
+    if len(found[2]) > 1 or is_held_tree(m, springs):
+        return found if len(found[2]) == 1 else None
+    trees = (kept for kept in combinations(springs, m.nodes) if is_held_tree(m, kept))
+    trees = (model(m.text, (*masses, *kept), m.force, m.sensor, m.order) for kept in trees)
+    return found if any(interlaced(tree) == found for tree in trees) else None
 
 
 def inner_of(pair, e):
@@ -1217,11 +1428,20 @@ def theorem(pair, e):
     are_chains = is_chain(a) and is_chain(b)
     if name == "replacement" and not are_chains and replaceable(a, b):
         return Result(CHECKED, "parts that can replace each other")
+    if name == "interlacing" and not are_chains and interlaced(a) == interlaced(b) is not None:
+        return Result(CHECKED, "zeros between poles, in both")
+    if name == "springs to the ground" and not are_chains:
+        a, b = grounded_everywhere(a), grounded_everywhere(b)
+        if replaceable(a, b):
+            return Result(CHECKED, "the same with a spring to the ground at each mass")
     plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
     if not plain or name not in SAME_BY:
         return searched(f"theorem {name}: its premises are not derived again")
     alike = factors(a) == factors(b) and all(indices(a)[i] == indices(b)[i] for i in (0, 6))
     return result(alike and same_by(a, b, name), f"premises of {name}")
+
+
+REPLACEMENT = {"kind": "theorem", "name": "replacement"}
 
 
 def same_by(a, b, name):
@@ -1232,6 +1452,17 @@ def same_by(a, b, name):
         return is_dual(a, b) or is_dual(b, a)
     one = is_cauer(a) and is_cauer(b)
     return is_foster(a) and is_foster(b) and one == (name == "Cauer")
+
+
+def both_ways(pair, e):
+    """On two chains that are these, or stand for these: the share of each that has equivalents."""
+    sides_ = [e[side] for side in ("left", "right")]
+    right = all(x["share"] in SHARES[x["evidence"]["kind"]].split() for x in sides_)
+    if not right or not all(
+        is_certain(x["certainty"], x["safety"], x["evidence"], pair) for x in sides_
+    ):
+        return result(False, "shares that their evidence does not show")
+    return searched("shares of both are not repeated")
 
 
 def by_search(pair, e):
@@ -1360,12 +1591,6 @@ def step_row(row, element_, limit):
     return None
 
 
-def is_proper(n, gap, am, ap, mm, mp):
-    """Whether ports are in the rows to which they belong."""
-    below = range(1, gap + 1) if gap else (0,)
-    return 0 <= gap < n and {am, mm} <= {*below} and {ap, mp} <= {*range(gap + 1, n + 1)}
-
-
 def limit(pair, e):
     """Joints of the larger chain's rows that vanish or become rigid, one by one; a row that is not
     named comes to rest. With a count in addition the last step is not repeated.
@@ -1375,7 +1600,7 @@ def limit(pair, e):
         if shape:
             n, *rest = shape
             other = chain(n, *rest, indices(own)[6])
-            is_same = is_proper(n, *rest) and any(same_by(own, other, x) for x in SAME_BY)
+            is_same = any(same_by(own, other, x) for x in SAME_BY)
             if n != indices(own)[0] or not is_same:
                 return result(False, "a chain that is not the same")
             larger, smaller = (other, smaller) if own is larger else (larger, other)
@@ -1403,9 +1628,9 @@ NAMED = (counts, forms, ranks, renaming, embedding, explicit, witnesses, inequal
 NAMED += (free_choice, of_part, full_image, larger_projection, relative_degrees, too_large, meeting)
 CHECKS = {check.__name__.replace("_", "-"): check for check in NAMED}
 CHECKS |= {"solved": solutions, "replaced": inner_of, "at-inverse": inner_of}
-CHECKS["no equivalent"] = no_equivalent
+CHECKS |= {"no equivalent": no_equivalent, "both ways": both_ways}
 UNREADABLE = (KeyError, ValueError, TypeError, IndexError, AttributeError)
-UNREADABLE += (ArithmeticError, SyntaxError, RecursionError)
+UNREADABLE += (ArithmeticError, SyntaxError, RecursionError, MemoryError)
 
 
 def unreadable(why):
@@ -1499,12 +1724,16 @@ def chain_record(table, kind, where, r, m):
     right = found == (r["parameters"], r["degrees"], r["free"], r["rank"])
     whole = r["rank"] in (len(r["parameters"]), r["free"])  # no rank is larger
     word, bits = r["rank_certainty"], r["safety"]
+    right = right and r.keys() == MODEL_OF_CHAINS
     right = right and (word == "proven" if whole else word == "bounded" and 0 < bits <= BITS)
     expect(table, kind, "model", "degrees, rank", right and (bits == 0 or not whole), where)
     is_same = r["identifiability"]["rank"] == x.full_rank
     found = searched("numbers of equivalents") if is_same else Result(WRONG, "rank")
     table.add(kind, "model", "identifiability", found, where)
 
+
+MODEL_OF_CHAINS = {"model", "indices", "parameters", "degrees", "free", "rank", "identifiability"}
+MODEL_OF_CHAINS |= {"rank_certainty", "safety"}
 
 # what a record says beside its evidence: the kinds of evidence that allow it
 
@@ -1523,6 +1752,7 @@ CERTAINTY = {
     **dict.fromkeys(("constants", "full-parts"), "proven"),
     **dict.fromkeys(("fibre", "no-equivalent"), "bounded"),
     "dead time": "theorem",
+    "both ways": "theorem proven bounded",
     "supermodel": "proven bounded",
     "odd fibres": "theorem proven bounded",
 }
@@ -1602,16 +1832,29 @@ def unfounded(slot, told, e, pair):
     if "inclusion" in told:
         fits = shows_inclusion(slot, pair, e, told["inclusion"])
         return "" if fits else "an inclusion that its evidence does not show"
-    return relation_of(told.get("relation"), e, pair)
+    return relation_of(slot if slot in DOMAINS else "complex", told.get("relation"), e, pair)
 
 
-def relation_of(relation, e, pair):
+def relation_of(domain, relation, e, pair):
     """What is wrong with a relation that rests on evidence; without one it is that of the kind."""
+    core = core_of(e)
     if not shows(e) or (relation or shows(e)[0]) not in shows(e):
         return "a relation that its evidence does not show"
+    own = "positive" if core["kind"] == "both ways" else core.get("domain", domain)
+    if domain not in DOMAINS or own != domain:
+        return "evidence over other values"
+    if domain != "complex" and relation == SAME and core["kind"] in ONLY_COMPLEX:
+        return "evidence over complex values"
+    if domain == "real" and (e["kind"] == "replaced" or core.get("name") in NOT_REAL):
+        return "a theorem on positive values"
     if relation == SAME and len({x.full_rank for x in sides(pair)}) > 1:
         return "the same, with unequal ranks"
     return ""
+
+
+DOMAINS = ("complex", "real", "positive")
+ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
+NOT_REAL = ("Foster", "Cauer", "replacement", "interlacing", "springs to the ground")
 
 
 def judged(found, false_of, *told):
@@ -1623,6 +1866,9 @@ def judged(found, false_of, *told):
     return Result(WRONG, why) if why else found
 
 
+DECIDED = ("certainty", "safety", "decided_by", "representation")  # of what is not open
+
+
 def claim(table, kind, slot, told, pair, where):
     """A verdict and its evidence; returns the relation that it gives."""
     if e := told.get("evidence"):
@@ -1630,24 +1876,24 @@ def claim(table, kind, slot, told, pair, where):
         table.add(kind, slot, str(e.get("kind")), found, where)
         return told.get("relation", *shows(e)[:1])
     right = told.get("relation", told.get("inclusion")) in ("undecided", "unknown")
-    if not right or told["certainty"] or told["safety"] != 0 or not told.get("reason", "-"):
+    if not right or any(map(told.get, DECIDED)) or not told.get("reason", "-"):
         expect(table, kind, slot, "none", False, where, "a verdict without evidence")
     return "undecided"
 
 
 CHAIN_SLOTS = {"tf", "markov", "structure", "fibre"}
-DOMAINS = {"left_positive", "right_positive", "real"}
+VALUES = {"left_positive", "right_positive", "real"}
 
 
 def chain_pair(table, kind, where, r, pair, verdicts):
     """All evidence of one pair of chains."""
-    if unknown := r.keys() - CHAIN_SLOTS - DOMAINS - {"left", "right", "inclusions"}:
+    if unknown := r.keys() - CHAIN_SLOTS - VALUES - {"left", "right", "inclusions"}:
         expect(table, kind, "pair", "known", False, where, f"unknown: {sorted(unknown)}")
     shown = {claim(table, kind, slot, r[slot], pair, where) for slot in CHAIN_SLOTS & r.keys()}
-    if len(shown) > 1:
-        expect(table, kind, "pair", "one answer", False, where, "two answers")
+    if len(shown) != 1:
+        expect(table, kind, "pair", "one answer", False, where, "no answer, or two")
     verdicts[r["left"], r["right"]] = next(iter(shown), "undecided")
-    for slot in DOMAINS & r.keys():
+    for slot in VALUES & r.keys():
         claim(table, kind, slot, r[slot], pair, where)
     for side, told in r.get("inclusions", {}).items():
         if side not in ("closure", "image"):
@@ -1657,7 +1903,8 @@ def chain_pair(table, kind, where, r, pair, verdicts):
 
 def header(table, kind, name, head, **counted):
     """The first line of a file: its name, its sensor, and numbers of what is in it."""
-    told = {"catalog": Path(name).stem, "sensor": "acceleration", **counted}
+    schema = 4 if kind == "chains" else 1
+    told = {"catalog": Path(name).stem, "sensor": "acceleration", "schema": schema, **counted}
     right = all(head[key] == told[key] for key in told if key in head or key in counted)
     expect(table, kind, "file", "header", right and "catalog" in head, name)
 
@@ -1677,6 +1924,8 @@ def chains_file(table, name, lines):
     right = set(verdicts) == whole and len(lines) == 1 + len(models) + len(whole)
     every = dict(enumerate(enumerated(head["n_masses"], head["damped"]), 1))
     expect(table, kind, "file", "all models, pairs", right and models == every, name)
+    own = f"chains-{head['n_masses']}-{'' if head['damped'] else 'un'}damped.jsonl"
+    expect(table, kind, "file", "name", name == own, name)
     header(table, kind, name, head, models=len(every))
     consistent(table, kind, name, verdicts)
     return {(n, head["n_masses"]): m for n, m in models.items()}
@@ -1770,9 +2019,9 @@ def links(table, models):
             if models[j].x.full_rank == m.x.full_rank:
                 yield i, j
     for line in table.beside("settled-dampers.jsonl"):
-        r = json.loads(line)
+        r = read(line)
         ends = [first.get(repr(form_of(chain_text(r[side])))) for side in ("left", "right")]
-        known = r["finding"][1] == "holds" and None not in ends
+        known = SAME in shows(r["finding"][4] or {}) and None not in ends
         if known and settled(json.dumps(r))[1].status == CHECKED:
             yield ends[0], ends[1]
 
@@ -1904,7 +2153,7 @@ def dampers_file(table, name, lines):
 @cache
 def settled(line):
     """(pair, result) of one line of settled-dampers."""
-    r = json.loads(line)
+    r = read(line)
     pair = pair_of(chain_text(r["left"]), chain_text(r["right"]))
     return pair, evidence(pair, r["finding"][4])
 
@@ -1921,7 +2170,7 @@ def chain_text(text):
     return chain(n, gap, am, ap, mm, mp, bool(got[7]), dampers)
 
 
-def finding(table, kind, where, told, pair, found=None):
+def finding(table, kind, where, told, pair, domain, found=None):
     """[format, word, certainty, safety, evidence or null, reason]."""
     form, word, certainty, bits, e, reason = told
     if not e:
@@ -1929,12 +2178,11 @@ def finding(table, kind, where, told, pair, found=None):
         if not right or not isinstance(reason, str) or not reason:
             expect(table, kind, "finding", "none", False, where, "no evidence")
         return
-    found, core = found or evidence(pair, e), core_of(e)
-    if core.get("domain", "positive") != "positive":
-        found = Result(WRONG, "evidence over other values")
-    if form != 10 or reason != "" or word not in map(FINDING.get, shows(e)):
-        found = Result(WRONG, "a finding that its evidence does not show")
-    if not all(is_certain(certainty, bits, x, pair) for x in (e, core)):
+    relation = next((x for x in shows(e) if FINDING[x] == word), "none")
+    found = judged(found or evidence(pair, e), relation_of, domain, relation, e, pair)
+    if form != 10 or reason != "":
+        found = Result(WRONG, "a finding with a reason, or of another format")
+    if not all(is_certain(certainty, bits, x, pair) for x in (e, core_of(e))):
         found = Result(WRONG, "a certainty that its evidence does not give")
     table.add(kind, "finding", e["kind"], found, where)
 
@@ -1944,7 +2192,7 @@ def settled_file(table, name, lines):
     expect(table, "settled", "file", "once", len(pairs) == len(lines), name)
     for k, r in enumerate(lines, 1):
         pair, found = settled(json.dumps(r))
-        finding(table, "settled", f"{name}:{k}", r["finding"], pair, found)
+        finding(table, "settled", f"{name}:{k}", r["finding"], pair, "complex", found)
 
 
 def network_record(table, kind, where, r):
@@ -1953,6 +2201,8 @@ def network_record(table, kind, where, r):
     x = profile(m, SCALE.get(kind, 1))
     free = {n for n, level in told["levels"].items() if level == "not identifiable"}
     most = len(m.names) + len(m.exponents)
+    if r.keys() != {"model", "network", "group", "identifiability"}:
+        expect(table, kind, "model", "known", False, where, "missing or unknown fields")
     if len(m.exponents) > 1 and x.full_rank + len(m.exponents) < told["rank"] <= most:
         table.add(kind, "model", "rank", searched("two exponents, taken for one"), where)
         return m
@@ -1976,7 +2226,7 @@ def network_pair(table, kind, where, r, pair):
     if "complex" in r:
         claim(table, kind, "complex", r["complex"], pair, where)
     if "finding" in r:
-        finding(table, kind, where, r["finding"], pair)
+        finding(table, kind, where, r["finding"], pair, "positive")
     if "positive" in r:
         over_positive(table, kind, where, r, pair)
 
@@ -1995,11 +2245,6 @@ def over_positive(table, kind, where, r, pair):
     if given[0] == "abandoned":
         fits = (*words, told["certainty"], told["safety"]) == ("undecided", "", "", "", 0)
     return expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
-
-
-def as_another(a, b):
-    """Whether one network gives the same as another one, seen by their parts."""
-    return a is b or (not a.fixed and replaceable(a, b))
 
 
 def networks_file(table, name, lines):
@@ -2028,10 +2273,9 @@ def networks_file(table, name, lines):
         if "as" in r:
             of = tuple(sorted(r["as"]))
             right = of in told and "as" not in told[of] and groups[of[0]] == groups[key[0]]
-            alike = right and all(as_another(models[x], models[y]) for x, y in zip(key, r["as"]))
-            found = Result(CHECKED, "networks that replace each other")
-            found = found if alike else searched("that these give the same is not derived again")
-            found = found if right else Result(WRONG, "not of this class")
+            ways = (pair_of(models[x], models[y]) for x, y in zip(key, r["as"])) if right else ()
+            found = [evidence(way, REPLACEMENT) for way in ways] or [result(False, "other class")]
+            found = next((x for x in found if x.status != CHECKED), found[0])
             table.add(kind, "pair", "as another", found, f"{name} {key}")
             verdicts.setdefault(key, verdicts.get(of, "missing"))
     consistent(table, kind, name, verdicts)
@@ -2045,11 +2289,28 @@ def unlisted(table, kind, name, models, groups, verdicts, scale):
         if groups[a] and groups[a] == groups[b]:
             if (a, b) not in verdicts:
                 expect(table, kind, "pair", "class", False, where, "a pair of a class is missing")
+            elif verdicts[a, b] != SAME and apart(*(profile(models[x], scale) for x in (a, b))):
+                expect(table, kind, "pair", "class", False, where, "told apart by invariants")
         else:
             x, y = profile(models[a], scale), profile(models[b], scale)
             told = Result(CHECKED, "invariants"), searched("degrees, ranks, dependences agree")
             differ = told_apart(x, y, ("H", "1/G") if not models[a].exponents else ())
             table.add(kind, "unlisted", "", told[not differ], where)
+
+
+def candidates_pair(a, b, sign, rule, place, certainty):
+    """The signs of one pair: `.`, the first condition that tells it apart, t (transfer function) or
+    f (fibre), and p, b or t (proven, bounded, theorem: one of the two has a dead time).
+    """
+    late = a.model.delay != b.model.delay
+    conditions = [sum(a.degrees) != sum(b.degrees), a.degrees != b.degrees]
+    conditions += [late or a.varying != b.varying, a.full_rank != b.full_rank]
+    first = next((f"{i}" for i, holds in enumerate(conditions, 1) if holds), "5e")
+    words = {"1": "p", "2": "p", "3": "t" if late else "pb", "4": "pb"}.get(rule, "b")
+    right = sign == "." and rule and rule in first and place == "tf"[rule == "e"]
+    if first == "5e" and right and certainty in words:
+        return searched("condition 5 or an exact decision, computed on demand")
+    return result(right and certainty in words, "degrees, ranks and what varies")
 
 
 def candidates_file(table, name, lines):
@@ -2068,13 +2329,9 @@ def candidates_file(table, name, lines):
         signs = [r[key] for key in ("relation", "decided_by", "representation", "certainty")]
         if {len(others)} != {*map(len, signs)}:
             expect(table, "candidates", "pair", "all pairs", False, f"{name}:{k}", "missing")
-        for b, sign, rule in zip(others, *signs[:2]):
-            found = result(sign == ".", "invariants")
-            if rule == "1":
-                found = result(sum(a.degrees) != sum(b.degrees) and sign == ".", "degrees")
-            elif not apart(a, b):
-                found = searched("condition 5 or an exact decision, computed on demand")
-            table.add("candidates", "pair", rule, found, f"{name}:{k}")
+        for b, *signs_ in zip(others, *signs):
+            found = candidates_pair(a, b, *signs_)
+            table.add("candidates", "pair", signs_[1], found, f"{name}:{k}")
     right = [r["left"] for r in lines[1:] if "left" in r] == list(range(1, len(models)))
     expect(table, "candidates", "file", "all pairs", right, name)
     header(table, "candidates", name, lines[0], models=len(models))
@@ -2093,6 +2350,8 @@ ORDERS = {"position": 0, "velocity": 1, "acceleration": 2}
 
 def verdict_model(record):
     """A model of a single verdict file, by its content: its name is that of a person."""
+    if record.keys() - MODEL_OF_VERDICTS:
+        raise NotImplementedError("fields of models")
     if "n_masses" in record:
         keys = ("n_masses", "gap", "act_minus", "act_plus", "meas_minus", "meas_plus", "damped")
         more = tuple(record["ground_dampers"]), record["lag"], record["dead_time"]
@@ -2110,6 +2369,11 @@ def verdict_model(record):
     (sensor,) = record.get("sensor") or record["port"]
     order = ORDERS[record["quantity"]] if "quantity" in record else 0
     return model(json.dumps(record), parts, tuple(force), tuple(sensor), order)
+
+
+MODEL_OF_VERDICTS = {"name", "sensor", "n_masses", "gap", "act_minus", "act_plus", "meas_minus"}
+MODEL_OF_VERDICTS |= {"meas_plus", "damped", "ground_dampers", "lag", "dead_time", "network"}
+MODEL_OF_VERDICTS |= {"elements", "force", "port", "quantity", "flows", "input", "output"}
 
 
 def listed_element(name, a, b=0, more=""):
@@ -2135,7 +2399,12 @@ def verdict_file(table, name, told):
     half = any(e.kind == "W" for m in (a, b) for e in m.elements)
     pair = pair_of(a, b, 2 if half else 1)
     for place, part in (("verdict", told), ("over complex", told.get("over_complex") or {})):
-        if e := part.get("evidence"):
+        says = part.get("relation") in FINDING or any(map(part.get, DECIDED))
+        if not (e := part.get("evidence")) and says:
+            expect(table, "verdict", place, "none", False, name, "a verdict without evidence")
+        if place != "verdict" and part and part.get("domain") != "complex":
+            expect(table, "verdict", place, "domain", False, name, "other values")
+        if e:
             found = judged(evidence(pair, e), overstated, part, e, pair)
             if found.status == CHECKED and is_by_algebra(part["certainty"], pair, e):
                 found = searched("ranks by exact algebra")
@@ -2153,15 +2422,10 @@ def overstated(part, e, pair):
         return "a certainty that its evidence does not give"
     if part["decided_by"] in CONDITIONS - {condition(e)}:  # others are those of a newer program
         return "another condition than its evidence"
-    if core.get("domain", domain) != domain:
-        return "evidence over other values"
-    if domain != "complex" and part["relation"] == SAME and core["kind"] in ONLY_COMPLEX:
-        return "evidence over complex values"
-    return relation_of(part["relation"] or "none", e, pair)
+    return relation_of(domain, part["relation"] or "none", e, pair)
 
 
 CONDITIONS = {*"123456789", "exact", ""}
-ONLY_COMPLEX = ("free-choice", "embedding", "supermodel", "solved", "full-parts", "fibre")
 
 
 FILES = {
@@ -2175,13 +2439,31 @@ FILES = {
 }
 
 
+def once(pairs):
+    """A dictionary in which each name stands once."""
+    if len(found := dict(pairs)) < len(pairs):
+        raise ValueError("a name stands twice")
+    return found
+
+
+def finite(text):
+    if abs(number_ := float(text)) < 1e300:
+        return number_
+    raise ValueError(f"no number: {text}")
+
+
+def read(text):
+    """A value of JSON; what the format leaves open is refused."""
+    return json.loads(text, object_pairs_hook=once, parse_float=finite, parse_constant=finite)
+
+
 def check_file(table, path):
     """All records of one file; a file that cannot be read is wrong."""
     try:
         text, table.folder = path.read_text(encoding="utf-8"), path.parent
         if path.suffix == ".json":
-            return verdict_file(table, path.name, json.loads(text))
-        lines = [json.loads(line) for line in text.splitlines()]
+            return verdict_file(table, path.name, read(text))
+        lines = [read(line) for line in text.splitlines()]
         return FILES[re.match(r"[a-z]+", path.stem)[0]](table, path.name, lines)
     except UNREADABLE as why:
         found = result(False, f"cannot be read: {unreadable(why)}"[:90])

@@ -162,6 +162,16 @@ def pytest_terminal_summary(terminalreporter):
             terminalreporter.write_line(line)
 
 
+@pytest.fixture(scope="session", autouse=True)
+def one_core():
+    """One processor for what is called in this process: pytest's workers use the others, and a
+    process imports for seconds before it works. A test of several processes names their number.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
+        yield
+
+
 @pytest.fixture(scope="session")
 def browser():
     """The one browser of a process: a second Playwright beside it would not start."""

@@ -20,7 +20,7 @@ from functools import partial
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from pathlib import Path
-from time import monotonic
+from time import monotonic, sleep
 from traceback import format_exc
 from typing import Any
 
@@ -33,6 +33,7 @@ START = (
     300.0  # seconds in which a worker starts and loads what a call needs, however busy the machine
 )
 GRACE = 2.0  # seconds in which a process may end by itself
+ATTEMPTS = 5  # to start a process
 TROUBLES = "app-errors.txt"  # in the project folder, what a defect of the program left
 IDLE = 0.3  # seconds without a call after which a worker prepares for the next one
 PRELOADED = "disting.app.preloaded"
@@ -69,8 +70,7 @@ class Worker:
         self._pipe, there = context.Pipe()
         self._process = context.Process(target=_serve, args=(there, setting), name="disting app")
         self._is_killed = False
-        with deaf_to_interrupts():  # the server hears Ctrl-C and ends its workers
-            self._process.start()
+        _start(self._process)
         there.close()
 
     def ask(self, call: Call, request: Json, progress: Progress) -> Json:
@@ -119,6 +119,21 @@ class Worker:
         if self._process.is_alive():
             self._process.kill()
             self._process.join()
+
+
+def _start(process: Any) -> None:
+    """Start a process of a context. A server of forks that was ended while it was asked gives no
+    process; the next attempt starts another server.
+    """
+    for left in reversed(range(ATTEMPTS)):
+        try:
+            with deaf_to_interrupts():  # the server hears Ctrl-C and ends its workers
+                process.start()
+            return
+        except (EOFError, ConnectionError):
+            if not left:
+                raise
+            sleep(GRACE / ATTEMPTS)
 
 
 def _forking() -> Any:  # ForkServerContext, which Windows does not have

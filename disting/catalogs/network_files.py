@@ -21,7 +21,7 @@ from itertools import chain, combinations, groupby
 from pathlib import Path
 
 from disting.catalogs.files import Record, lines
-from disting.conditions.rule import ADMISSIBLE, Finding
+from disting.conditions.rule import ADMISSIBLE, Finding, Stage
 from disting.errors import CatalogError
 from disting.evidence.kind import Labels
 from disting.evidence.positive import BothWays
@@ -35,11 +35,13 @@ from disting.general.over_domain import by_replacement, positive_question
 from disting.general.parts import parts_of
 from disting.general.plain_maps import PLAIN_MAPS
 from disting.general.replacement import replaceable, simplest_network
+from disting.model.question import Domain
 from disting.network.families import FAMILIES, NetworkFamily, family_of
 from disting.network.simplest import same_drawing
+from disting.verdict.cascade import verdict_of
 from disting.verdict.decisions import Decisions, Pair
 from disting.verdict.engine import Engine, Progress, question_key, silent
-from disting.verdict.result import Query, Relation, View
+from disting.verdict.result import Query, Relation, Step, Verdict, View
 
 MOST = 9  # parameters of networks whose parts are looked at
 
@@ -55,7 +57,8 @@ def search_in_brief(
     equivalent networks only one is decided.
     """
     own = representatives(sides)
-    same = [pair for pair in same_pairs(over_complex, len(sides)) if _is_searched(sides, *pair)]
+    every = same_pairs(over_complex, len(sides))
+    same = [(i, j) for i, j in every if _is_searched(sides, own[i], own[j])]
     pairs = sorted({in_order(own[i], own[j]) for i, j in same})
     questions = {(i, j): positive_question(sides[i], sides[j])[1] for i, j in pairs if i < j}
     parts = _representatives_of_parts(sides, own)
@@ -226,27 +229,33 @@ def _pairs(
     for i, j in same_pairs(over_complex, len(sides)):
         question, models = positive_question(sides[i], sides[j])
         finding = engine.answers.get(question_key(question, models, engine.settings))
+        positive = _as_networks(over_positive.verdict(i, j), sides[i], sides[j], finding)
         record: Record = {
             "left": i + 1,
             "right": j + 1,
-            "complex": _verdict_record(over_complex, i, j),
-            "positive": _of_networks(_verdict_record(over_positive, i, j), sides[i], sides[j]),
+            "complex": _verdict_record(over_complex.verdict(i, j)),
+            "positive": _verdict_record(positive),
         }
         if isinstance(finding, Finding):
             record["finding"] = json.loads(finding.to_json())
-            if over_positive.verdict(i, j).evidence == finding.evidence:  # else by a theorem
+            if positive.evidence == finding.evidence:  # else by a theorem
                 del record["positive"]["evidence"]
         yield record
 
 
-def _of_networks(record: Record, left: NetworkSide, right: NetworkSide) -> Record:
-    """The record, by the theorem on networks where two chains replace each other: a small checker
-    derives its premises from the names in the file, those of both ways it does not.
+def _as_networks(
+    verdict: Verdict, left: NetworkSide, right: NetworkSide, finding: object
+) -> Verdict:
+    """A verdict on two chains, found both ways, as one on networks: by the theorem, or by what was
+    found for the pair that gives the same. A small checker follows this by the names in the file.
     """
-    is_both_ways = record["evidence"] and record["evidence"]["kind"] == BothWays.kind
-    told = by_replacement(left, right) if is_both_ways else None
-    theorem = None if told is None else told.evidence
-    return record if theorem is None else record | {"evidence": theorem.to_dict()}
+    theorem = by_replacement(left, right)
+    told = finding if theorem is None else theorem
+    if not isinstance(verdict.evidence, BothWays) or not isinstance(told, Finding):
+        return verdict
+    step = Step(Stage.PARAMETERS, told)
+    found = verdict_of(left, right, step, Domain.POSITIVE)
+    return found if found.relation is verdict.relation else verdict
 
 
 def _short(records: Sequence[Record], sides: Sequence[NetworkSide]) -> Iterator[Record]:
@@ -279,9 +288,8 @@ def _finding(record: Record) -> Finding:
     return Finding.from_json(json.dumps(record["finding"]), rule=ADMISSIBLE)
 
 
-def _verdict_record(decided: Decisions, i: int, j: int) -> Record:
+def _verdict_record(verdict: Verdict) -> Record:
     """A verdict without its models."""
-    verdict = decided.verdict(i, j)
     return {
         "relation": verdict.relation.value,
         "decided_by": verdict.decided_by,

@@ -46,6 +46,7 @@ from disting.decide.decider import (
 from disting.evidence.conditions import Counts
 from disting.evidence.decision import (
     GEARS,
+    GROUNDS,
     INTERLACING,
     ONE_PORTS,
     REPLACEMENT,
@@ -548,10 +549,17 @@ POSITIVE_NETWORKS = Table(
             check=f"{_EVIDENCE}:check_sets",
         ),
         Decider(
-            name="interlacing: undamped trees with one spring to the ground",
+            name="interlacing: undamped machines with zeros between poles",
             cost=Cost.CLOSED_FORM,
             decide=f"{_OVER}:by_interlacing",
             yields=(Theorem(INTERLACING),),
+            check=f"{_EVIDENCE}:check_sets",
+        ),
+        Decider(
+            name="places of springs to the ground, undamped machines",
+            cost=Cost.CLOSED_FORM,
+            decide=f"{_OVER}:by_grounds",
+            yields=(Theorem(GROUNDS),),
             check=f"{_EVIDENCE}:check_sets",
         ),
     ),

@@ -38,9 +38,12 @@ THEOREMS = {
         "{left} and {right} are the same except for gears: a gear changes only the units behind it"
     ),
     "interlacing": (
-        "{left} and {right} are undamped trees with the same number of masses and one spring to the"
-        " ground: each can have any resonances, and any antiresonances that lie each between two"
-        " neighbouring resonances"
+        "{left} and {right} are undamped machines with the same number of masses: each can have any"
+        " resonances, and any antiresonances that lie each between two neighbouring resonances"
+    ),
+    "springs to the ground": (
+        "{left} and {right} are undamped, with force and sensor each at one mass, and become the"
+        " same when springs to the ground are moved: their places make no difference"
     ),
     "parts": (
         "{left} and {right} are undamped, and their rows on both sides of the gap can replace each"
@@ -54,6 +57,8 @@ RATIONAL = ("symmetry", "duality", "gears")
 
 GEARS = "gears"
 """That of `disting.network.gears`."""
+GROUNDS = "springs to the ground"
+"""That of `disting.network.grounds`."""
 INTERLACING = "interlacing"
 ONE_PORTS = "Foster and Cauer"
 REPLACEMENT = "replacement"
@@ -69,6 +74,7 @@ TITLES = {
     "gears": "gears as units",
     "interlacing": "antiresonances between resonances",
     "parts": "reversal of undamped rows",
+    "springs to the ground": "places of springs to the ground",
 }
 
 
@@ -102,7 +108,8 @@ class Theorem(Kind):
         holds_over = {
             Domain.COMPLEX: True,
             Domain.REAL: self.name in RATIONAL,
-            Domain.POSITIVE: self.name in ("Foster and Cauer", GEARS, INTERLACING, REPLACEMENT),
+            Domain.POSITIVE: self.name
+            in ("Foster and Cauer", GEARS, GROUNDS, INTERLACING, REPLACEMENT),
         }
         return Relation.INDISTINGUISHABLE if holds_over[domain] else Relation.UNDECIDED
 

@@ -24,10 +24,22 @@ b_1 to the free one: each part, seen at its end, gives any such share (Foster, a
 trees).
 In both cases the w are any of the b between the a. Values times a number t leave a and w as they
 are and make n/t of n.
+
+With more springs, wherever they are: let the zeros of such a machine be poles of parts that are
+left when one mass is held, and let a tree of the theorem with the same N, j, degree of W and sign
+of n remain when springs are left out.
+THEOREM. It gives the same functions as this tree.
+Proof. Holding one mass is one condition on a definite pencil, so a_i <= b_i <= a_(i+1) as before
+(Cauchy), and no zero is a pole: each w is between two neighbours, no two between the same, so it
+gives no others. The tree gives all of them: at generic values p the derivatives of the coefficients
+have full rank. They depend smoothly on p and on the values e >= 0 of the other springs, and at
+e = 0 they are those of the tree. So for small e > 0 some p near by gives the same function
+(implicit function theorem).
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations
 from math import prod
 
@@ -35,12 +47,15 @@ from flint import fmpz_mpoly
 
 from disting.algebra.determinants import minors
 from disting.algebra.symbols import symbols
-from disting.evidence.decision import INTERLACING, REPLACEMENT
+from disting.errors import InputError
+from disting.evidence.decision import GROUNDS, INTERLACING, REPLACEMENT
 from disting.general.matrix_model import AnyModel, Model
 from disting.general.replacement import simplest_network
-from disting.network.network import Element, Network, parts
+from disting.network.grounds import grounded_everywhere, is_undamped
+from disting.network.network import Element, Network, Port, parts
+from disting.network.simplest import simplest
 
-FEWEST = 3  # masses: of two, formulas are found, which say more
+REMEMBERED = 512  # machines: each is asked about in many pairs
 Ring = dict[str, fmpz_mpoly]
 """x and the values of the elements by name."""
 
@@ -58,15 +73,56 @@ def sets_of(model: AnyModel) -> dict[str, object]:
     """Sets of functions that the model gives by theorems on networks, by their names: models with
     equal sets are equivalent, None gives no information.
     """
-    return {REPLACEMENT: simplest_network(model), INTERLACING: machine_type(model)}
+    plain, network = simplest_network(model), model.network
+    kind, whole = (None, None) if plain is None else _of_simplest(plain)
+    grounded = network and grounded_everywhere(network)
+    return {
+        REPLACEMENT: plain,
+        INTERLACING: machine_type(model) or kind,
+        GROUNDS: simplest(grounded) if grounded else whole,
+    }
 
 
+@lru_cache(maxsize=REMEMBERED)
+def _of_simplest(plain: Network) -> tuple[MachineType | None, Network | None]:
+    """The same of a simplest network of masses and springs: many networks have the same one."""
+    machines = [*machines_of(plain)]
+    kinds = (machine_type(Model.from_network(machine)) for machine in machines)
+    grounded = (simplest(whole) for machine in machines if (whole := grounded_everywhere(machine)))
+    return next(filter(None, kinds), None), next(filter(None, grounded), None)
+
+
+def machines_of(network: Network) -> Iterator[Network]:
+    """Yield a simplest network of masses and springs as a machine: where all masses meet in one
+    node, this node may be the ground.
+    """
+    masses = [{*_ends(e)} for e in network.elements if e.letter == "j"]
+    springs = [e for e in network.elements if e.letter == "k"]
+    if not masses or len(masses) + len(springs) < len(network.elements):
+        return
+    for ground in sorted(set.intersection(*masses)):
+        to = {node: node for node in (0, *network.nodes)} | {ground: 0, 0: ground}
+        at = sorted(to[node] for ends in masses for node in ends - {ground})
+        if at != [*network.nodes]:
+            continue
+        inputs, outputs = (
+            tuple(Port(to[port.plus], to[port.minus]) for port in side)
+            for side in (network.inputs, network.outputs)
+        )
+        elements = [Element(f"m{node}", "m", (node,)) for node in at]
+        for i, e in enumerate(springs, 1):
+            low, high = sorted(to[node] for node in _ends(e))
+            elements.append(Element(f"k{i}", "k", (low, high) if low else (high, 0)))
+        yield Network(tuple(elements), inputs, outputs, network.order)
+
+
+@lru_cache(maxsize=REMEMBERED)
 def machine_type(model: AnyModel) -> MachineType | None:
-    """The functions of a machine of the theorem, None of any other.
+    """The functions of a machine of the theorems, None of any other.
 
     >>> from disting.general.any_model import of_network
     >>> from disting.network import network_of
-    >>> star, chain = "#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2"
+    >>> star, chain = "#~1, #~2, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2"
     >>> one, other = (machine_type(of_network(network_of(text))) for text in (star, chain))
     >>> one == other
     True
@@ -76,41 +132,61 @@ def machine_type(model: AnyModel) -> MachineType | None:
     network, other_parts = model.network, tuple(map(bool, model.numerator_terms))
     masses = len(network.nodes)
     if (
-        masses < FEWEST
-        or not is_held_tree(network)
+        not is_undamped(network)
         or model.degrees[1] != 2 * masses
         or not model.denominator[0]
+        or not _has_zeros_of_parts(model, network)
     ):
         return None
     first = other_parts.index(True)
     signs = {number > 0 for _, number in model.numerator_terms[first]}
-    if any(other_parts[first + 1 :: 2]) or len(signs) > 1:
+    if len(signs) > 1:
         return None
+    found = MachineType(masses, other_parts, 1 if signs.pop() else -1)
+    trees = [*_trees_within(network)] if not is_held_tree(network) else []
+    return found if is_held_tree(network) or found in map(machine_type, trees) else None
+
+
+def _has_zeros_of_parts(model: Model, network: Network) -> bool:
+    """Return True if the zeros are poles of parts that are left where a mass is held or, in a tree,
+    a spring is cut.
+    """
+    first = next(i for i, terms in enumerate(model.numerator_terms) if terms)
     ring = symbols(["x", *model.parameters])
     zeros = ring["x"] * 0
     for at, terms in enumerate(model.numerator_terms[first::2]):
         for exponents, number in terms:
             powers = zip(model.parameters, exponents, strict=True)
             zeros += int(number) * ring["x"] ** at * prod(ring[p] ** int(e) for p, e in powers)
-    if not any(_are_zeros_of(zeros, chosen) for chosen in _choices(network, ring)):
-        return None
-    return MachineType(masses, other_parts, 1 if signs.pop() else -1)
+    is_even = not any(model.numerator_terms[first + 1 :: 2])
+    return is_even and any(_are_zeros_of(zeros, chosen) for chosen in _choices(network, ring))
+
+
+def _trees_within(network: Network) -> Iterator[Model]:
+    """Yield what is a held tree when springs are left out."""
+    springs = [e for e in network.elements if e.letter == "k"]
+    masses = [e for e in network.elements if e.letter == "m"]
+    for kept in combinations(springs, len(masses)):
+        chosen = tuple(e for e in network.elements if e in masses or e in kept)
+        try:
+            tree = Network(chosen, network.inputs, network.outputs, network.order)
+        except InputError:
+            continue
+        if is_held_tree(tree):
+            yield Model.from_network(tree)
 
 
 def is_held_tree(network: Network) -> bool:
     """Return True if it is made of masses, springs that connect them as a tree, and one to the
     ground.
     """
-    elements, nodes = network.elements, network.nodes
-    springs = [e for e in elements if e.letter == "k"]
+    nodes = network.nodes
+    springs = [e for e in network.elements if e.letter == "k"]
     joints = [e for e in springs if 0 not in _ends(e)]
     return (
-        sorted(e.nodes for e in elements if e.letter == "m") == [(i,) for i in nodes]
-        and len(elements) == len(network.seen) == 2 * len(nodes)
+        is_undamped(network)
         and len(springs) == len(nodes) == len(joints) + 1
-        and not any(e.ratio for e in elements)
         and len(set(parts(nodes, map(_ends, joints)).values())) == 1
-        and network.shape == (1, 1)
     )
 
 
@@ -123,9 +199,8 @@ def _choices(network: Network, ring: Ring) -> Iterator[tuple[fmpz_mpoly, ...]]:
     """Yield the polynomials of all choices of parts that are left where a mass is held or a spring
     between masses is cut.
     """
-    cut = [
-        [e for e in network.elements if e is not k] for k in network.elements if 0 not in _ends(k)
-    ]
+    inner = [k for k in network.elements if is_held_tree(network) and 0 not in _ends(k)]
+    cut = [[e for e in network.elements if e is not k] for k in inner]
     ways = [*((network.elements, i) for i in network.nodes), *((rest, 0) for rest in cut)]
     for elements, held in ways:
         left = [i for i in network.nodes if i != held]

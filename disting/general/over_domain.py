@@ -15,7 +15,7 @@ from disting.conditions.rule import ADMISSIBLE, EXACT, Finding, Outcome, Rule
 from disting.conditions.side import Ask
 from disting.decide import POSITIVE_NETWORKS, REAL_NETWORKS, found_at_once
 from disting.evidence.conditions import Renaming
-from disting.evidence.decision import GEARS, INTERLACING, REPLACEMENT, Theorem
+from disting.evidence.decision import GEARS, GROUNDS, INTERLACING, REPLACEMENT, Theorem
 from disting.evidence.general import OverDomain
 from disting.evidence.kind import Carrier
 from disting.evidence.kinds import Evidence, InclusionEvidence
@@ -164,8 +164,13 @@ def by_replacement(left: NetworkSide, right: NetworkSide) -> Finding | None:
 
 
 def by_interlacing(left: NetworkSide, right: NetworkSide) -> Finding | None:
-    """Undamped trees with one spring to the ground."""
+    """Undamped machines with any zeros between their poles."""
     return _of_theorem(ADMISSIBLE, INTERLACING, _gives_same(INTERLACING, left, right))
+
+
+def by_grounds(left: NetworkSide, right: NetworkSide) -> Finding | None:
+    """Undamped machines that differ by the places of their springs to the ground."""
+    return _of_theorem(ADMISSIBLE, GROUNDS, _gives_same(GROUNDS, left, right))
 
 
 def _of_theorem(rule: Rule, name: str, applies: bool) -> Finding | None:

@@ -46,6 +46,8 @@ Check = Callable[[Claim], Iterator[str]]
 def _find_unfounded(claim: Claim) -> Iterator[str]:
     v = claim.verdict
     if v.evidence is None:
+        if v.relation is not Relation.UNDECIDED or v.decided_by or v.certainty or v.safety:
+            yield f"{claim.where}something is decided without evidence"
         return
     if not follows(v, v.evidence, claim.query):
         yield f"{claim.where}{v.relation}, by {v.rule}, does not follow from evidence of that kind"

@@ -4,11 +4,13 @@ goes wrong; on a desk and on a telephone, light and dark.
 
 import json
 import re
+import shutil
 from collections.abc import Iterator
 
 import pytest
 
-from tests.app.served import Served, bench_csv, serving
+from disting.app.project import LOCK
+from tests.app.served import Served, bench_csv, serving, spectrum_csv
 from tests.report.barriers import barriers
 from tests.report.conftest import heard
 
@@ -23,11 +25,26 @@ DROP = """([name, text]) => {
 }"""
 
 
-@pytest.fixture
-def own(tmp_path) -> Iterator[Served]:
+@pytest.fixture(scope="module")
+def server(tmp_path_factory) -> Iterator[Served]:
     pytest.importorskip("starlette", reason="the extra app is not installed")
-    with serving(tmp_path / "project") as served:
+    with serving(tmp_path_factory.mktemp("own") / "project") as served:
         yield served
+
+
+@pytest.fixture
+def own(server) -> Iterator[Served]:
+    """A server with an empty project: all that it knows lies in the folder, and another one would
+    import for seconds.
+    """
+    yield server
+    for job in json.loads(server.ask("GET", "/api/jobs")[2])["jobs"]:
+        server.ask("POST", f"/api/jobs/{job['job']}/stop")
+    for path in server.folder.iterdir():
+        if path.is_dir():
+            shutil.rmtree(path)
+        elif path.name != LOCK:
+            path.unlink()
 
 
 @pytest.fixture
@@ -144,11 +161,10 @@ def test_a_second_measurement_tests_the_fit_and_what_comes_after_it_is_on_the_pa
     tab.fill("#fix", "Td=late")
     tab.click("#fit button.main")
     is_seen(tab, "Known values: write them like m1=0.02, Td=0.0003, not Td=late.")
-    tab.fill("#fix", "Td=0.0003")
-    for number in (1, 2):
+    for number, fixed in ((1, "Td=0.0003"), (2, "")):
+        tab.fill("#fix", fixed)
         tab.click("#fit button.main")
         is_seen(tab, f"Answer of fit {number}: bench.csv")
-        tab.fill("#fix", "")
     commands = [found["command"] for found in own.call("fits", {})[1]["fits"]]
     assert all("--test data/again.csv" in command for command in commands)
     assert ["--fix Td=0.0003" in command for command in commands] == [False, True]
@@ -227,15 +243,9 @@ def test_an_engineer_by_keyboard(own, visit):
 
 
 def test_a_chemist_pastes_a_spectrum(own, visit):
-    import numpy as np
-
-    f = np.geomspace(0.1, 1e4, 40)
-    Z = 10 + 100 / (1 + 2j * np.pi * f * 100 * 1e-4)
-    Z = Z * (1 + 0.003 * np.random.default_rng(2).normal(size=(40, 2)) @ [1, 1j])
-    rows = "\n".join(f"{x:.6g},{z.real:.6g},{-z.imag:.6g}" for x, z in zip(f, Z, strict=True))
     tab = visit(own)
     tab.click("text=Paste a table")
-    tab.fill("#pasted", f"freq/Hz,Re(Z)/Ohm,-Im(Z)/Ohm\n{rows}\n")
+    tab.fill("#pasted", spectrum_csv(40).decode())
     tab.click("text=Read the table")
     tab.wait_for_selector("#diagram.nyquist circle")
     tab.get_by_role("button", name="Zoom in").click()
@@ -473,8 +483,15 @@ def test_what_cannot_be_read_is_said_and_the_way_back_is_there(own, visit):
     tab.wait_for_selector("#diagram circle")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1280, 390])
+@pytest.mark.parametrize(
+    ("width", "scheme"),
+    [
+        (1280, "light"),
+        (390, "dark"),
+        pytest.param(1280, "dark", marks=pytest.mark.slow),  # colours do not depend on the width
+        pytest.param(390, "light", marks=pytest.mark.slow),
+    ],
+)
 def test_nothing_keeps_people_out_and_nothing_is_wider_than_the_window(app, visit, width, scheme):
     tab = visit(app, width, scheme)
     drop(tab, "bench.csv", bench_csv())

@@ -11,6 +11,7 @@ REQUEST = {
 }
 
 
+@pytest.mark.slow
 def test_a_fit_runs_on_the_cluster_and_says_the_same(tmp_path) -> None:
     pytest.importorskip("starlette", reason="the extra app is not installed")
     distributed = pytest.importorskip("distributed")

@@ -1,14 +1,17 @@
 """Workers of quick calls: who is gone needs no answer."""
 
 import asyncio
+import os
+import signal
 from functools import partial
+from multiprocessing.forkserver import _forkserver
 from pathlib import Path
 
 import pytest
 
 from disting.app.interface import CALLS
 from disting.app.jobs import Pool
-from disting.app.workers import Failure, Setting
+from disting.app.workers import CAN_FORK, Failure, Setting
 from tests.app.loops import run
 
 pytestmark = pytest.mark.full
@@ -72,3 +75,21 @@ async def ask_after_a_kill(folder: Path) -> dict:
 
 def test_a_worker_that_died_meanwhile_is_not_asked(tmp_path: Path) -> None:
     assert run(ask_after_a_kill(tmp_path)) == {"content": None}
+
+
+async def ask_after_the_forks_ended(folder: Path) -> dict:
+    """Answer of a call when the server of forks was ended while it started the workers."""
+    pool = Pool(Setting(folder), 2)
+    pool.start()
+    try:
+        while _forkserver._forkserver_pid is None:
+            await asyncio.sleep(0.01)
+        os.kill(_forkserver._forkserver_pid, signal.SIGKILL)
+        return await asyncio.wait_for(pool.answer(CALLS["open"], {"page": "data"}), 300)
+    finally:
+        await pool.end()
+
+
+@pytest.mark.skipif(not CAN_FORK, reason="no server of forks here")
+def test_workers_start_though_the_server_of_forks_is_ended_meanwhile(tmp_path: Path) -> None:
+    assert run(ask_after_the_forks_ended(tmp_path)) == {"content": None}

@@ -204,7 +204,7 @@ def _check(check: Any, table: Any, name: str, r: Record) -> None:
     kind = name.split("-")[1]
     if name.startswith("settled"):
         pair = check.pair_of(check.chain_text(r["left"]), check.chain_text(r["right"]))
-        return check.finding(table, kind, "", r["finding"], pair)  # type: ignore[no-any-return]
+        return check.finding(table, kind, "", r["finding"], pair, "complex")  # type: ignore[no-any-return]
     models, networks = models_of(name), name.startswith("networks")
     if "left" not in r:
         args = (r,) if networks else (r, models[r["model"]])

@@ -39,20 +39,21 @@ from disting.verdict.model_equivalents import model_equivalents
 from disting.verdict.result import Relation
 from tests.oracles.twins import STARTS, twin
 
-QUICK = ("circuits-4", "compartments-2")
-
 
 @pytest.mark.full
 @pytest.mark.parametrize(
     "name",
-    [*QUICK, *(pytest.param(n, marks=pytest.mark.slow) for n in sorted({*SHIPPED} - {*QUICK}))],
+    [
+        "circuits-4",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in sorted({*SHIPPED} - {"circuits-4"})),
+    ],
 )
 def test_what_is_shipped_is_what_is_computed(name):
     assert verify_networks(family_of(name), shipped_folder(), Engine()).wrong == ()
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("name", ["machines-3", "trees-4"])
+@pytest.mark.parametrize("name", ["machines-3", pytest.param("trees-4", marks=pytest.mark.slow)])
 def test_evidence_on_two_chains_holds_by_the_theorem_that_is_named(name: str) -> None:
     """One on networks was looked up among those on chains, and the evidence "did not hold"."""
     family, engine = family_of(name), Engine()
@@ -171,7 +172,10 @@ SEARCHED = {
 
 @pytest.fixture(
     scope="module",
-    params=[pytest.param(n, marks=[pytest.mark.slow] * (n == "trees-4")) for n in SEARCHED],
+    params=[
+        pytest.param(n, marks=[pytest.mark.slow] * (n in ("machines-3", "trees-4")))
+        for n in SEARCHED
+    ],
 )
 def searched(request):
     """A large family: its name, its sides, and its pairs as the file has them."""
@@ -248,7 +252,13 @@ def test_what_can_be_determined_is_taken_over(name):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize(("group", "kinds"), [(6, {"of-part", "witnesses"}), (9, {"explicit"})])
+@pytest.mark.parametrize(
+    ("group", "kinds"),
+    [
+        pytest.param(6, {"of-part", "witnesses"}, marks=pytest.mark.slow),
+        (9, {"explicit"}),
+    ],
+)
 def test_some_of_a_large_family_alone_get_what_the_whole_gets(group, kinds):
     """Eight networks of a class: other ones are searched then, and what is found is the same."""
     whole = family_of("compartments-3")
@@ -332,7 +342,10 @@ def first_witnesses(lines):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize(("digits", "told"), [("{:.5g}", False), ("{:.1e}", True), ("", True)])
+@pytest.mark.parametrize(
+    ("digits", "told"),
+    [("{:.5g}", False), pytest.param("{:.1e}", True, marks=pytest.mark.slow), ("", True)],
+)
 def test_digits_of_an_equivalent_are_checked_by_themselves(digits, told, tmp_path):
     """Where it lies on a curve a search in rounded numbers ends at others on another processor."""
     path = tmp_path / f"{name_of('compartments-2')}.jsonl"

@@ -24,7 +24,7 @@ def disting(*arguments, cache="off", cwd=None):
     )
 
 
-def called(*arguments, cache="off"):
+def called(*arguments: object, cache: object = "off") -> subprocess.CompletedProcess[str]:
     """The same without a process of its own, which takes a second to start: for tests of what a
     command says.
     """

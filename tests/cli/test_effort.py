@@ -132,7 +132,13 @@ def test_a_pair_of_many_unknowns_says_so_and_can_be_stopped() -> None:
 
 @pytest.mark.full
 @pytest.mark.parametrize(
-    "command", ["verdicts 3", "models 5", "models 3 --also lock=2", "report 1 --undamped --out {}"]
+    "command",
+    [
+        "verdicts 3",
+        "models 5",
+        pytest.param("models 3 --also lock=2", marks=pytest.mark.slow),
+        "report 1 --undamped --out {}",
+    ],
 )
 def test_work_that_ends_soon_is_done_without_a_word(tmp_path: Path, command: str) -> None:
     assert called(*command.format(tmp_path).split()).stderr == ""
@@ -160,7 +166,11 @@ def test_more_masses_take_longer(work: Work) -> None:
 
 @pytest.mark.full
 @pytest.mark.parametrize(
-    "command", ["report trees-4-damped --out pages", "verdicts trees-4-damped"]
+    "command",
+    [
+        pytest.param("report trees-4-damped --out pages", marks=pytest.mark.slow),
+        "verdicts trees-4-damped",
+    ],
 )
 def test_a_family_that_is_not_shipped_says_how_long_it_takes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str

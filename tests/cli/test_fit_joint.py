@@ -3,9 +3,11 @@
 import json
 import shlex
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from jsonschema import validate
 
 from disting.cli.fit_data import data
 from disting.cli.run import parser
@@ -16,6 +18,7 @@ from disting.fit.select import select
 from disting.measurement import FrequencyResponse, read
 from disting.model.chain import Chain
 from disting.report.fit.selection_json import selection_to_dict
+from disting.schemas import Format, schema
 from tests.cli.process import called
 
 DRIVE = Chain(2, damped=True, ground_dampers=(2,), dead_time=True)
@@ -23,7 +26,7 @@ VALUES = {"m1": 0.01, "m2": 0.004, "k12": 800.0, "d12": 0.05, "b2": 0.1, "Td": 2
 OMEGA = 2 * np.pi * np.geomspace(10.0, 200.0, 40)
 
 
-def column(setup, seed, level=0.003):
+def column(setup: Setup, seed: int, level: float = 0.003) -> np.ndarray:
     """A response of the drive under a setup, with relative noise."""
     data = FrequencyResponse(OMEGA, np.ones(len(OMEGA)))
     delays = (setup.delay,) if setup.delay else ()
@@ -34,7 +37,7 @@ def column(setup, seed, level=0.003):
     return exact * (1 + level * error / np.sqrt(2))
 
 
-def written(path, *columns):
+def written(path: Path, *columns: np.ndarray) -> Path:
     """A table of responses, their names those of the sensors."""
     names = ["motor", "load"][: len(columns)]
     header = ",".join(["f [Hz]", *(f"Re {n},Im {n}" for n in names)])
@@ -273,6 +276,7 @@ def test_a_joint_fit_finds_the_twin_that_is_the_truth(tmp_path, left, setup, sai
     path = tmp_path / "both.json"
     done = called(*again, "--left", left, "--experiment", f"{further}:{said}", "--json", path)
     found = json.loads(path.read_text(encoding="utf-8"))
+    validate(found, schema(Format.FIT))
     assert found["explained"] and found["selected"]["name"] == "3:11"
     assert {"name": "3:11", "measured": setup.text} in found["places"]
     assert f"in 3:11 this is {setup.text}" in done.stdout

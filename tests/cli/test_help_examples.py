@@ -50,7 +50,14 @@ def fit_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("line", [line for line in EXAMPLES if line not in CHEAP])
+@pytest.mark.parametrize(
+    "line",
+    [
+        pytest.param(line, marks=[pytest.mark.slow] * line.startswith("disting look --demo"))
+        for line in EXAMPLES
+        if line not in CHEAP
+    ],
+)
 def test_a_longer_example_works(
     line: str, fit_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -42,7 +42,7 @@ def test_what_is_mostly_inductive_is_not_turned(tmp_path):
     assert "-Im" not in done.stderr
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_all_sensors_are_simulated_and_fitted(tmp_path):
     """One file for each sensor; a fit of an undamped machine to them begins anywhere."""
     two, values = "1~2~3; F1; S1 S3", "m1=0.01,m2=0.012,m3=0.006,k12=500,k23=900"
@@ -90,7 +90,7 @@ def test_networks_of_a_file_are_named_by_file_and_name(tmp_path):
     assert done.returncode == 2 and "3:1 is a numbered chain" in done.stderr
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_a_tree_is_simulated_with_friction():
     done = called("simulate", TREE, "--set", VALUES, "--samples", "500", "--friction", "3=0.01")
     assert done.returncode == 0 and "# quantity: acceleration" in done.stdout
@@ -98,7 +98,7 @@ def test_a_tree_is_simulated_with_friction():
     assert other.stdout != done.stdout
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_a_plan_says_how_much_noise_may_be_there():
     """By hand: R1 in series to C1 against R1 alone differ by 1/(j w C1); its best fit is a real
     number, so that of two lines the sum of squares is known.

@@ -122,7 +122,7 @@ def rivals(fit_file):
     return done, json.loads(path.read_text(encoding="utf-8"))
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_what_contains_the_selected_structure_is_no_rival_and_the_reverse_is_planned_for(
     fit_file, rivals
 ):

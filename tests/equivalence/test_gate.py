@@ -93,7 +93,7 @@ def test_what_is_the_same_for_some_values_is_kept_and_told():
         assert ((a, b) in found.not_separate) is not apart
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_networks_of_many_values_follow_by_parts():
     texts = ["R0-p(R1,C1)-p(R2,C2)-p(R3,C3)", "R0-p(C1,R1-p(C2,R2-p(C3,R3)))"]
     found = gate([*texts, "1=2*5/2=3; F1; S3", "1=2=3; F1; S3"])

@@ -35,7 +35,13 @@ def test_theorems(domain):
         == {
             Domain.COMPLEX: set(THEOREMS),
             Domain.REAL: {"symmetry", "duality", "gears"},
-            Domain.POSITIVE: {"Foster and Cauer", "gears", "interlacing", "replacement"},
+            Domain.POSITIVE: {
+                "Foster and Cauer",
+                "gears",
+                "interlacing",
+                "replacement",
+                "springs to the ground",
+            },
         }[domain]
     )
 

@@ -198,7 +198,7 @@ def test_compartments_and_machines(capsys):
     assert all("mass" in item for item in told["menu"])
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_networks_with_two_sensors_and_with_constant_phase_elements(capsys):
     assert main(["next", "1~2~3~4; F1; S1 S2", "1~2, 2~3, 2~4; F1; S1 S2"]) == 0
     told = capsys.readouterr().out

@@ -101,7 +101,7 @@ def alone():
     return few, task, estimates(few, task)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes_with_workers_or_without(alone):
     few, task, found = alone
     with ThreadPoolExecutor(3) as pool:

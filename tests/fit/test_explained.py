@@ -159,7 +159,7 @@ def with_friction():
     return series.response("acceleration", period=2500, transient=1)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "data",
     [
@@ -190,7 +190,7 @@ def test_a_mass_more_is_named_where_it_explains_the_data():
     assert [r.words for r in found.readings] == ["with one mass more"]
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_gains_in_db_are_named_where_a_gain_has_no_unit():
     level = 20 * np.log10(np.abs(EXACT) * 100)
     data = noisy(level * np.exp(1j * np.angle(EXACT)))
@@ -430,7 +430,7 @@ def test_a_resonance_between_two_lines_is_named(step, said):
     assert bool(named) == said, suspicions(found)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_what_one_line_alone_determines_is_not_foretold_by_the_others():
     """A narrow resonance next to one line: without this line its height is not known."""
     machine = bench_drive(4, 52)

@@ -57,7 +57,8 @@ def test_networks_refuse_them_too(data):
 
 @pytest.mark.full
 @pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=pytest.mark.slow) if n == "wide" else n for n in TAKEN]
+    "name",
+    [pytest.param(n, marks=pytest.mark.slow) if n in ("wide", "10 lines") else n for n in TAKEN],
 )
 def test_other_numbers_are_fitted_without_a_warning(name):
     """What only the units make large or small is explained as it is in other units."""

@@ -56,6 +56,7 @@ def assert_closed(selection):
     assert all(fitted[b].chi2 < 1.5 for b in explaining)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "seed", [2, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 3, 4, 5))]
 )

@@ -440,7 +440,7 @@ HOUSED = {
 }  # fmt: skip
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_which_resonance_is_that_of_the_base_is_not_decided():
     """Both sets of values have exactly the same response: none is given alone."""
     measured = noisy_response(TWO_ON_BASE, HOUSED, noise=0.003, seed=1)

@@ -24,7 +24,7 @@ def measured(clean, seed, noise=1e-2):
     return FrequencyResponse(OMEGA, noisy, quantity="position", is_impedance=True)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """60 fits of 3 values: 0.95 * 180 = 171 +- 3 hits if they are independent."""
     truth = {"R0": 1.0, "R1": 2.0, "C1": 0.01}

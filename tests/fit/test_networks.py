@@ -171,7 +171,7 @@ def kept(name: str, count: int, seed: int) -> int:
     return found
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_the_true_circuit_is_kept():
     assert kept("cells-4", 2, 1) == 2
 

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -35,14 +36,14 @@ VALUES = {"m1": 1.0, "m2": 2.0, "m3": 3.0, "k12": 100.0, "k23": 50.0, "d12": 0.1
 BENCH = Bench(2 * np.pi * np.geomspace(0.1, 10.0, 40), np.full(40, 0.02), 1.5)
 
 
-def member(chain, values, **twins):
+def member(chain: Chain, values: dict[str, float], **twins: dict[str, float]) -> dict[str, object]:
     """A structure that the data do not exclude, as the file of a fit has it."""
     same = [{"name": n, "parameters": v, "free_choices": 0} for n, v in twins.items()]
     plain = _chain_to_dict(chain) | {"parameters": values}
     return plain | {"equivalents": same}
 
 
-def fit_file(path, *members, **more):
+def fit_file(path: Path, *members: dict[str, object], **more: object) -> Path:
     """A file of a fit that left these."""
     plain = {
         "selected": members[0],
@@ -56,7 +57,7 @@ def fit_file(path, *members, **more):
     return path
 
 
-def twin_values():
+def twin_values() -> dict[str, float]:
     """Positive values of WALL with the response of FREE at VALUES."""
     exact = {name: str(value) for name, value in VALUES.items()}
     (listing,) = [x for x in equivalents(FREE, exact, WALL).listings if x.members]

@@ -107,7 +107,7 @@ def test_the_json_reads_back_bit_equal(selection):
         model_from_dict({"n_masses": 2})
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes(selection):
     """All of it for fewer candidates; of the candidates of `selection`, what each fit found, in
     another company, which weighs the lines a little differently.

@@ -30,7 +30,7 @@ def test_the_smallest_candidate_alone_would_take_the_wrong_sign():
     assert select(load(), [ONE], test=load(seed=1), sign=0).task.sign == -1
 
 
-@pytest.mark.full
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1, pytest.param(-1, marks=pytest.mark.slow)])
 def test_all_candidates_together_take_the_right_sign(sign):
     both = select(load(sign), [ONE, TWO], test=load(sign, seed=1), sign=0)

@@ -1,4 +1,4 @@
-"""Undamped trees with force and sensor apart, against searches by numbers that know no theorem."""
+"""Undamped machines with force and sensor apart, against searches by numbers that know no theorem."""
 
 import random
 from itertools import combinations
@@ -18,9 +18,12 @@ SAME = [
     ("#~1, 1~2, 1~3; F1; S2:1", "#~1, 1~2, 2~3; F2:1; S3:2"),  # a spring is cut
     ("#~1, 1~2, 2~3; F2; S3", "#~1, 1~2, 2~3; F3; S2:1"),
     ("#~1, 1~2, 1~3; F2; S3", "#~1, 1~2, 2~3; F1; S3"),  # no antiresonance
+    ("#~1, #~2, 1~2; F1; S2", "#~1, 1~2; F1; S2"),  # two springs to the ground
+    ("#~1, #~2, 1~2, 1~3; F1; S3", "#~1, 1~2, 2~3; F3; S2:1"),
+    ("#~1, #~2, #~3, 1~2, 1~3; F2; S3", "#~1, #~2, 1~3, 2~3; F1; S2"),
 ]
 OTHER = [
-    "#~1, #~2, 1~2; F1; S2",  # two springs to the ground
+    "#~1, #~2, 1~2, 1~3; F1; S2:1",  # zeros of no part
     "1~2, 2~3; F1; S2",  # none
     "#~1, 1~2, 1~3, 2~3; F1; S2",  # a loop
     "#=1, 1=2, 1=3; F1; S2",  # dampers

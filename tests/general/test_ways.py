@@ -388,7 +388,7 @@ CYCLE, BACK, LEAK = (
 )
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_what_a_cycle_of_compartments_gives_is_known_by_hand():
     """Out of the third, G = n/(s (s^2 + e s + f + n)). A cycle needs real roots of t^2 - e t + f,
     the larger one at least 2 sqrt(n); so does one with a way back. With an outflow from the first

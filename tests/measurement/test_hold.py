@@ -92,13 +92,14 @@ def test_the_actuator_of_a_digital_drive_is_found_through_its_hold(delay, lag, t
     exact = sampled(VALUES, OMEGA, 0, delay, lag) * (1j * OMEGA) ** 2
     noise = source.normal(size=(2, len(OMEGA)))
     data = FrequencyResponse(OMEGA, exact * (1 + 7e-4 * (noise[0] + 1j * noise[1])))
-    found = select(data.held(1 / RATE), figure_1([2]))
+    tried = [c for c in figure_1([2]) if lag or not c.lag]
+    found = select(data.held(1 / RATE), tried)
     assert found.selected.chain == true
     values = found.selected.estimate.parameters
     assert values["m2"] == pytest.approx(VALUES["m2"], rel=3e-3)
     if delay:
         assert values["Td"] == pytest.approx(delay / RATE, rel=0.03)
-    bare = select(data, figure_1([2]))
+    bare = select(data, tried)
     assert bare.selected.chain != true or bare.explanation.chi2 > 2
 
 

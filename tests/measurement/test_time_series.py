@@ -223,7 +223,7 @@ def test_segments_that_are_too_short_for_a_resonance_say_so_and_count_what_they_
     )
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_what_segments_smooth_is_taken_out_as_far_as_neighbouring_lines_tell():
     """At a resonance four lines wide a plain quotient of spectra is too small by 5 %."""
     record, true = resonance(2_000_000)

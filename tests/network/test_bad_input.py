@@ -156,7 +156,7 @@ def writes_as_an_entry(network):
 @pytest.mark.thin(1)
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(n, marks=[pytest.mark.slow] * n.endswith("s-4")) for n in FAMILIES],  # trees-4
+    [pytest.param(n, marks=[pytest.mark.slow] * n.startswith("trees")) for n in FAMILIES],
 )
 def test_networks_of_families_are_read_back(name):
     for network in family_of(name).networks[::7]:

@@ -29,7 +29,8 @@ def rooted_trees(n_masses, joint):
 
 @pytest.mark.thin(1)
 @pytest.mark.parametrize(
-    ("n_masses", "trees"), [(3, 2), (4, 4), pytest.param(5, 9, marks=pytest.mark.slow)]
+    ("n_masses", "trees"),
+    [(3, 2), *(pytest.param(*n, marks=pytest.mark.slow) for n in ((4, 4), (5, 9)))],
 )
 def test_trees_at_their_root(n_masses, trees):
     for joint, relation in (("~", Relation.INDISTINGUISHABLE), ("=", Relation.DISTINGUISHABLE)):

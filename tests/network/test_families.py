@@ -129,7 +129,7 @@ def vector(size, ends):
 
 
 @pytest.mark.thin(1)
-@pytest.mark.parametrize("count", [2, 3])
+@pytest.mark.parametrize("count", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_compartments_are_all_graphs_with_a_way_through(count):
     graphs = once(compartments(count))
     listed = []

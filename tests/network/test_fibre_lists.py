@@ -78,7 +78,10 @@ def near(values, rng, size):
 @pytest.mark.full
 @pytest.mark.parametrize(
     "pair",
-    [SOMETIMES[0], *(pytest.param(pair, marks=pytest.mark.slow) for pair in SOMETIMES[1:3]), NEVER],
+    [
+        SOMETIMES[0],
+        *(pytest.param(pair, marks=pytest.mark.slow) for pair in (*SOMETIMES[1:3], NEVER)),
+    ],
 )
 def test_no_search_finds_what_lists_deny_and_all_around_it(pair):
     rng = np.random.default_rng(5)

@@ -121,7 +121,7 @@ def pairs_of(texts, most):
     return found[:most]
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_verdicts_are_those_with_independent_symbols():
     draw, same = random.Random(2), 0
     for left, right in pairs_of(FEW, 16):

@@ -70,7 +70,12 @@ def agree_with_singular(pairs, record_property):
 
 @pytest.mark.full
 @pytest.mark.parametrize(
-    ("name", "most"), [("machines-2", 8), ("compartments-2", 10), ("circuits-4", 6)]
+    ("name", "most"),
+    [
+        ("machines-2", 8),
+        ("compartments-2", 10),
+        pytest.param("circuits-4", 6, marks=pytest.mark.slow),
+    ],
 )
 def test_some_verdicts_over_positive_values(name, most, record_property):
     agree_with_twins(of_family(name, most), 1, record_property)

@@ -41,7 +41,7 @@ def test_flows_twice_are_written_and_read_again():
     assert not refused(files_of(pairs, VIEWS))
 
 
-@pytest.mark.parametrize(("name", "changed", "whole"), [("circuits-4", 12, 2)])
+@pytest.mark.parametrize(("name", "changed", "whole"), [("circuits-4", 6, 1)])
 def test_some_verdicts_hold(name, changed, whole):
     test_verdicts_hold(name, changed, whole)
 

@@ -126,7 +126,7 @@ def test_what_several_sensors_tell_is_summed():
         assert adversary.noncentrality(shares) == pytest.approx(found.noncentrality, rel=1e-4)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_planned_power_of_two_sensors_is_had():
     model, rival = (network_of(t) for t in ("R1-p(R2,C2)-p(R3,C3)", "R1-p(R2,C2)"))
     model, rival = (replace(n, inputs=n.inputs * 2, outputs=n.outputs) for n in (model, rival))

@@ -22,7 +22,6 @@ CHEAP = tuple(
         "compare 4:",
         'compare "',
         "fit cell.csv",
-        "fit --demo",
         "equivalents",
         "dampers 3:",
         "verdicts",

@@ -105,7 +105,6 @@ WRITTEN = [
     ("next left.json", Format.NEXT_OF_FIT),
     ("fit demo.csv --masses 1", Format.FIT),
     ("fit demo.csv --models '1=2; F1; S1' --models '1~2; F1; S1'", Format.NETWORK_FIT),
-    ("fit both.csv --sensor 1,2 --masses 2 --fix d12=0.05", Format.FIT),
     (f"plan {PLAN} --noise 0.3", Format.PLAN),
     (
         "plan 3:1 3:11 --set m1=1,m2=2,m3=3,k12=4,k23=5,d12=1,d23=2 --noise 0.02 --band 1..9",
@@ -120,9 +119,12 @@ WRITTEN = [
     ("look demo.csv", Format.LOOK),
     ("look both.csv --band 1..2", Format.LOOK),
 ]
-# formats that a cheaper command writes too
+# formats that a cheaper command writes too; the second one is validated in tests/cli/test_fit_joint
 BY_HAND = [
     pytest.param("verdicts circuits-4", Format.VERDICTS, marks=pytest.mark.slow),
+    pytest.param(
+        *("fit both.csv --sensor 1,2 --masses 2 --fix d12=0.05", Format.FIT), marks=pytest.mark.slow
+    ),
     pytest.param("plan cells.json", Format.PLANS_OF_FIT, marks=pytest.mark.slow),
 ]
 
@@ -242,11 +244,19 @@ def test_the_command_prints_a_schema_that_needs_no_other_file() -> None:
     assert json.loads(called("schema", "records").stdout) == record_schema()
 
 
+# seconds to enumerate, and written like smaller ones
+LARGE = ("machines-3", "machines-3-damped", "trees-4", "trees-4-damped")
+
+
 @pytest.mark.full
-def test_families_and_networks_are_written_as_the_schema_of_models_says(tmp_path: Path) -> None:
-    for name in FAMILIES:
-        networks = family_of(name).networks[-2:]
-        models = ModelList(tuple(of_network(network) for network in networks))
-        path = write_models(tmp_path / f"{name}.json", models)
-        valid(json.loads(path.read_text(encoding="utf-8")), Format.MODELS)
-        assert [m.network for m in read_models(path)] == list(networks)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=[pytest.mark.slow] * (n in LARGE)) for n in FAMILIES]
+)
+def test_families_and_networks_are_written_as_the_schema_of_models_says(
+    tmp_path: Path, name: str
+) -> None:
+    networks = family_of(name).networks[-2:]
+    models = ModelList(tuple(of_network(network) for network in networks))
+    path = write_models(tmp_path / f"{name}.json", models)
+    valid(json.loads(path.read_text(encoding="utf-8")), Format.MODELS)
+    assert [m.network for m in read_models(path)] == list(networks)

@@ -137,7 +137,12 @@ OPEN = [
         TOO_LARGE,
         marks=pytest.mark.slow,
     ),
-    (("#~1, #~2, 1~2; F1; S2", "#~1, 1~2; F1; S2"), {}, "'disting equivalents' with --set"),
+    pytest.param(
+        ("#~1, #~2, 1~2; F1; S2", "#~1, 1~2; F1; S2"),
+        {},
+        "'disting equivalents' with --set",
+        marks=pytest.mark.slow,
+    ),
 ]
 
 

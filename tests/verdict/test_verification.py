@@ -142,6 +142,15 @@ def test_what_is_open_cannot_be_checked_alone() -> None:
     assert found.status is Status.OPEN and "because it is undecided" in found.sentence
 
 
+def test_what_is_open_is_decided_by_nothing() -> None:
+    data = plain("R1-p(R2,W1)", "p(R1,R2-W1)", View.COMBINED)
+    data |= {"relation": "undecided", "evidence": {}, "decided_by": "", "representation": "",
+             "certainty": "", "image": "unknown", "closure": "unknown"}  # fmt: skip
+    assert verify(told_again(data)).status is Status.OPEN
+    for lie in ({"decided_by": "7"}, {"decided_by": "exact"}, {"safety": 1}):
+        assert verify(told_again(data, **lie)).status is Status.FAILS
+
+
 @pytest.mark.full
 def test_models_are_named_wholly_with_damping_and_sensor() -> None:
     data = plain("3:1+b2+lag", "A4", damped=False, quantity="velocity")

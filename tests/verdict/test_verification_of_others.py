@@ -274,7 +274,7 @@ def test_evidence_is_looked_at_wholly_without_the_rest_of_the_file(what: str) ->
     assert not asking.confirms(sides.left, sides.right, altered(evidence), representation)
 
 
-@pytest.mark.full
+@pytest.mark.slow
 def test_another_processor_ends_at_another_equivalent_of_a_curve() -> None:
     """A search in rounded numbers does, where six unknowns have five equations."""
     pair = "1>0, 1>2, 1>3, 2>0, 2>3, 3>1; in 1; out 2", "1>0, 1>2, 1>3, 2>1, 2>3, 3>2; in 1; out 2"

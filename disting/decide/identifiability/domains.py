@@ -58,11 +58,6 @@ class Solutions:
         """Certainty and error bits."""
         return self.certainty, self.safety
 
-    @property
-    def are_exchanges(self) -> bool:
-        """True if all vectors are exchanges of one of them."""
-        return self.most == self.order
-
     def to_dict(self) -> dict[str, Any]:
         """Plain data, ready for JSON."""
         return asdict(self)

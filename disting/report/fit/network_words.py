@@ -6,7 +6,7 @@ from math import inf
 
 from disting.fit.judge.interval import Interval
 from disting.fit.judge.network_intervals import NetworkTwin
-from disting.fit.results.networks import BAR, FittedNetwork
+from disting.fit.results.networks import FittedNetwork
 from disting.model.chain import Sort
 from disting.network.network import Network
 
@@ -97,8 +97,3 @@ def standing(fit: FittedNetwork) -> str:
     if fit.contains:
         return f"contains {fit.contains}"
     return f"excluded by {fit.excluded_by}" if fit.excluded_by else "not excluded"
-
-
-def same_words(fit: FittedNetwork) -> str:
-    """Return the networks that no data distinguish from this one, "" if there are none."""
-    return BAR.join(fit.same)

@@ -66,6 +66,7 @@ def test_the_page_tells_what_the_selection_does(selection, folder):
     )
 
 
+@pytest.mark.slow
 def test_the_same_selection_gives_the_same_page(selection, folder):
     page = network_page(selection, network_figures(selection), folder)
     assert page == (folder / "fit.html").read_text(encoding="utf-8")
