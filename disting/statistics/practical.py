@@ -199,7 +199,7 @@ def standard_errors(slopes: Real, columns: Real, noise: NoiseModel, rank: int) -
     parts = slopes / length @ right.T
     seen, along = noise.seen(left[:, :rank]), (parts[:, :rank] / values[:rank]).T
     if len(seen) * len(slopes) > MANY:
-        seen = np.linalg.qr(seen, mode="r")  # the same lengths with few rows
+        seen = np.linalg.qr(seen)[1]  # the same lengths with few rows
     errors = np.linalg.norm(seen @ along, axis=0)
     lost = np.linalg.norm(parts[:, rank:], axis=1) > LOST * np.linalg.norm(parts, axis=1)
     return np.asarray(np.where(lost, inf, errors))

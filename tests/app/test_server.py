@@ -277,6 +277,16 @@ def test_a_killed_worker_is_replaced_and_nothing_stays_behind(tmp_path):
     assert all_end(left)
 
 
+def test_workers_that_are_killed_while_they_start_are_replaced(tmp_path):
+    with serving(tmp_path / "project") as own:
+        own.upload("bench.csv", bench_csv())
+        for worker in children(own.process.pid):  # what starts the others is among them
+            os.kill(worker, signal.SIGKILL)
+        assert own.call("look", PLAIN)[0] in (200, 500)
+        assert own.call("look", PLAIN)[0] == 200
+    assert own.process.returncode == 0
+
+
 def test_a_killed_server_loses_no_finished_fit_and_no_worker_outlives_it(tmp_path):
     with serving(tmp_path / "project") as own:
         own.upload("bench.csv", bench_csv())
