@@ -162,10 +162,10 @@ def test_circuits_are_all_decided(name, count):
 
 
 SEARCHED = {
-    "machines-3": (2817, 56),
+    "machines-3": (2817, 16),
     "machines-3-damped": (1214, 230),
     "compartments-3": (8355, 919),
-    "trees-4": (2767, 382),
+    "trees-4": (2767, 337),
 }
 """Pairs that are the same over complex values, and those that stay open over positive ones."""
 
