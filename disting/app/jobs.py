@@ -16,7 +16,6 @@ from disting.files import json_text
 Gone = Callable[[], Awaitable[None]]  # returns when a client is gone
 WAITING = 64  # quick calls that may wait
 QUEUED = 16  # jobs that may wait or run
-PATIENCE = 0.5  # seconds before a start is tried again
 KEPT = 50  # finished jobs whose answers are remembered
 LEFT = Failure(499, "the client is gone")
 BUSY = Failure(503, "the app has more to do than it can keep in mind; try again")
@@ -33,7 +32,6 @@ class Pool:
         self._every: set[Worker] = set()
         self._starting: set[asyncio.Future[None]] = set()
         self._waiting = 0
-        self._is_over = False
 
     def start(self) -> None:
         """Begin to start the workers."""
@@ -86,26 +84,14 @@ class Pool:
         task.add_done_callback(self._starting.discard)
 
     async def _add(self) -> None:
-        worker = await _start(self._setting, lambda: self._is_over)
-        if worker is not None:
-            self._every.add(worker)
-            self._idle.put_nowait(worker)
+        worker = await asyncio.to_thread(Worker, self._setting)
+        self._every.add(worker)
+        self._idle.put_nowait(worker)
 
     async def end(self) -> None:
         """End all workers, those that are starting too."""
-        self._is_over = True
         await asyncio.gather(*self._starting, return_exceptions=True)
         await asyncio.gather(*(asyncio.to_thread(worker.end) for worker in self._every))
-
-
-async def _start(setting: Setting, is_over: Callable[[], bool]) -> Worker | None:
-    """A new worker, None once nobody needs it; anew where the system ended what starts it."""
-    while not is_over():
-        try:
-            return await asyncio.to_thread(Worker, setting)
-        except (OSError, EOFError):
-            await asyncio.sleep(PATIENCE)
-    return None
 
 
 @dataclass(eq=False, slots=True)
@@ -198,9 +184,7 @@ class Jobs:
                 """From the thread that reads the worker's pipe."""
                 loop.call_soon_threadsafe(job.advance, what, done, total)
 
-            worker = await _start(self._setting, lambda: job.is_over)
-            if worker is None:
-                return
+            worker = await asyncio.to_thread(Worker, self._setting)
             if job.is_over:  # stopped meanwhile
                 await asyncio.to_thread(worker.end)
                 return

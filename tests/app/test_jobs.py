@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from disting.app.interface import CALLS
-from disting.app.jobs import Pool
+from disting.app.jobs import Jobs, Pool
 from disting.app.workers import CAN_FORK, Failure, Setting
 from tests.app.loops import run
 
@@ -93,3 +93,17 @@ async def ask_after_the_forks_ended(folder: Path) -> dict:
 @pytest.mark.skipif(not CAN_FORK, reason="no server of forks here")
 def test_workers_start_though_the_server_of_forks_is_ended_meanwhile(tmp_path: Path) -> None:
     assert run(ask_after_the_forks_ended(tmp_path)) == {"content": None}
+
+
+async def stop_while_it_starts(folder: Path) -> str:
+    """State of a job that was stopped before its worker was there."""
+    jobs = Jobs(Setting(folder, loads=False))
+    job = jobs.begin(CALLS["next"], {"fit": 1})
+    await asyncio.sleep(0)  # a thread starts its worker
+    jobs.stop(job)
+    await asyncio.gather(*jobs._tasks)
+    return job.state
+
+
+def test_a_job_that_is_stopped_while_its_worker_starts_does_not_run(tmp_path: Path) -> None:
+    assert run(stop_while_it_starts(tmp_path)) == "stopped"
