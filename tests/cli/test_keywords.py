@@ -166,7 +166,10 @@ TABLE: dict[str, tuple[dict[str, tuple[str, ...]], dict[str, str]]] = {
     "cache info": ({}, {}),
     "cache clear": ({}, {}),
     **{
-        f"catalog {action}": ({}, {"--catalog": MAINTENANCE, "--search-open": MAINTENANCE})
+        f"catalog {action}": (
+            {},
+            dict.fromkeys(["--catalog", "--search-open", "--resume"], MAINTENANCE),
+        )
         for action in ("settle", "verify")
     },
     **{
@@ -176,7 +179,9 @@ TABLE: dict[str, tuple[dict[str, tuple[str, ...]], dict[str, str]]] = {
     **{group: ({}, {}) for group in ("", "catalog", "cache")},
 }
 ONE_KEYWORD = {"--undamped": "--damped"}  # two options that are the values of one keyword
-OPTIONLESS = {"catalog settle": {"--search-open"}}  # entries that only the other command has
+OPTIONLESS = {
+    "catalog settle": {"--search-open", "--resume"}
+}  # entries that only the other command has
 
 
 def options(of: argparse.ArgumentParser, name: str = "") -> Iterator[tuple[str, set[str]]]:
