@@ -96,6 +96,14 @@ def until(tab, script: str) -> None:
     raise AssertionError(script)
 
 
+def at_diagram(tab) -> dict[str, float]:
+    """The place of the diagram in the window, once it is not drawn anew any more."""
+    find = "document.querySelector('#diagram')"
+    until(tab, f"(window.drawn === {find}) || !(window.drawn = {find})")
+    tab.evaluate(f"{find}.scrollIntoView({{ block: 'center' }})")
+    return tab.evaluate(f"{find}.getBoundingClientRect().toJSON()")
+
+
 def overflow(tab) -> int:
     """Pixels by which the page is wider than its window."""
     return tab.evaluate(
@@ -287,8 +295,7 @@ def test_the_diagram_is_zoomed_by_mouse(app, visit):
     drop(tab, "bench.csv", bench_csv())
     tab.wait_for_selector("#diagram circle")
     assert not tab.evaluate(WHEEL) and shown(tab) == ""  # a page that scrolls goes on
-    tab.locator("#diagram").scroll_into_view_if_needed()
-    box = tab.locator("#diagram").bounding_box()
+    box = at_diagram(tab)
     y = box["y"] + box["height"] / 3
     x = [box["x"] + share * box["width"] for share in (0.4, 0.5, 0.6)]
     tab.mouse.move(x[0], y)
@@ -342,8 +349,7 @@ def test_two_fingers_zoom_a_diagram_about_their_middle(app, visit):
     tab = visit(app, 390)
     drop(tab, "bench.csv", bench_csv())
     tab.wait_for_selector("#diagram circle")
-    tab.locator("#diagram").scroll_into_view_if_needed()
-    box = tab.locator("#diagram").bounding_box()
+    box = at_diagram(tab)
     middle, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 3
     fingers = tab.context.new_cdp_session(tab)
     touch(fingers, "Start", (middle - 20, y))

@@ -351,7 +351,7 @@ def _expect_residuals(
     if test is not None:
         return expected_deviation(task.cost.of(plant, p)[1][:, free], sigma, columns, ones)
     fitted = task.cost.of(plant, p)[1][:, free]
-    for seen in _seen(task.cost):
+    for seen in _mark_seen(task.cost):
         out = seen == 0
         ones[out] = expected_deviation(fitted * seen[:, None], sigma, columns[out], ones[out])
     return ones
@@ -362,7 +362,7 @@ def _folds(cost: AnyCost) -> list[Indices]:
     return [np.arange(len(part.measured)) % FOLDS for part in cost.parts]
 
 
-def _seen(cost: AnyCost) -> Real:
+def _mark_seen(cost: AnyCost) -> Real:
     """Residuals that the fit without each fold sees, shape (FOLDS, n_y): 1, and 0 for those of the
     lines of the fold.
     """
@@ -379,7 +379,7 @@ def _cross_validate(estimate: Estimate, task: Task, p: Real) -> Complex:
     if not task.box(task.names(estimate.chain)).free.any():
         return _at(estimate.chain, task, task.cost, p)  # no fit sees any line
     plant, box = task.plant(estimate.chain), task.box(task.names(estimate.chain))
-    starts, cost = np.tile(p, (FOLDS, 1)), CostOfEach(task.cost, _seen(task.cost))
+    starts, cost = np.tile(p, (FOLDS, 1)), CostOfEach(task.cost, _mark_seen(task.cost))
     ends, _ = rough(plant, cost, box, starts, FOLD_STEPS, FOLD_GAIN)
     at = np.concatenate(_folds(task.cost))
     return np.asarray(plant.response(ends)[at, np.arange(len(at))])
