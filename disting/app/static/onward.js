@@ -21,7 +21,7 @@ const words = (name, found, addNext) => {
     element("details", {}, element("summary", {}, "The same on the command line"), command(found[name].command)));
 };
 
-const ALONE = "Circuits and own models are fitted to one measurement: another one, such as the advised, cannot be added to this fit. In Python, fit_networks fits several responses of models that have as many sensors.";
+const ALONE = "Circuits and own models are fitted to one measurement: another one, such as the one advised, cannot be added to this fit. In Python, fit_networks fits several responses of models that have as many sensors.";
 
 // {root, watch}: buttons and answers of a fit; `watch(name, promise)` takes a job that already runs.
 export const onwardPart = ({ call, follow, addNext }, found) => {
