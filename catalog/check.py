@@ -1089,17 +1089,19 @@ def connected(way, parts):
     )
 
 
-def parts_of(m):
-    """{(node, node): part} when all parts in parallel or in series are connected."""
-    ends, parts = {*m.force, *m.sensor}, {}
+def parts_of(labels, ends):
+    """{(node, node): part} when all parts (node, node, part) in parallel or in series are connected
+    between the nodes that are no ends.
+    """
+    parts = {}
 
     def put(a, b, part):
         key = min(a, b), max(a, b)
         parts[key] = connected("parallel", [parts[key], part]) if key in parts else part
 
-    for e in m.elements:
-        if e.a != e.b:
-            put(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power))
+    for a, b, part in labels:
+        if a != b:
+            put(a, b, part)
     while True:
         at = {}
         for key in parts:
@@ -1128,8 +1130,7 @@ def normal_form(m):
     """
     if m.fixed:
         return form_of_compartments(m)
-    parts = parts_of(m)
-    parts = parts if len(parts) == 1 else full_set(m) or parts
+    parts = whole_parts(m)
     others, found = {x for key in parts for x in key} - {*m.force, *m.sensor}, []
     for pair in ((m.force, m.sensor), (m.sensor, m.force)):
         for force, sensor in (pair, [port[::-1] for port in pair]):
@@ -1139,32 +1140,118 @@ def normal_form(m):
     return min(found)
 
 
+def whole_parts(m):
+    """The parts of a network, or the one that gives all that it gives."""
+    labels = [(e.a, e.b, ("exponent",) if e.exponent else ("one", e.power)) for e in m.elements]
+    parts = parts_of(labels, {*m.force, *m.sensor})
+    return parts if len(parts) == 1 else full_set(m) or parts
+
+
 def full_set(m):
     """{(node, node): part} of a one-port of two kinds of elements, not in series and parallel, that
-    gives all of K(n, c, z): a part of this set remains where some of its elements vanish or become
-    rigid.
+    gives all of K(n, c, z): a part of this set remains where up to three elements vanish or become
+    rigid, or the degree of its map is not 0.
     """
     powers = sorted({e.power for e in m.elements})
     if {*m.force} != {*m.sensor} or len(powers) != 2 or m.exponents:
         return None
-    in_x = (e._replace(power=powers.index(e.power)) for e in m.elements)
-    x = profile(m._replace(elements=tuple(in_x), order=0))
-    c, z = int(x.degrees[0] == x.degrees[1]), int(x.den[0] == 0)
-    part = "two", *powers, x.degrees[1] - z, c, z
-    return {m.force: part} if any([*rest.values()] == [part] for rest in minors(m, 3)) else None
+    bridge = one_port([(powers.index(e.power), e.a, e.b) for e in m.elements], *m.force)
+    numbers, near = numbers_of(bridge), {bridge}
+    for _ in range(3):
+        near |= {rest for whole in near for _, _, rest in one_less(whole)}
+    labels = ([(a, b, ("one", power)) for power, a, b in rest] for rest in near)
+    alike = {(0, 1): ("two", 0, 1, *numbers)}
+    is_whole = any(parts_of(rest, {0, 1}) == alike for rest in labels) or degree(bridge)
+    return {m.force: ("two", *powers, *numbers)} if is_whole else None
 
 
-def minors(m, most):
-    """Yield the parts of what remains where up to so many elements vanish or become rigid."""
-    for k in range(most + 1):
-        for out, rigid in product(combinations(m.elements, k), product((False, True), repeat=k)):
-            at = list(range(m.nodes + 1))
-            for e in compress(out, rigid):
-                at = [at[e.a] if x == at[e.b] else x for x in at]
-            kept = (e for e in m.elements if e not in out)
-            kept = tuple(e._replace(a=at[e.a], b=at[e.b]) for e in kept)
-            force, sensor = (tuple(at[x] for x in port) for port in (m.force, m.sensor))
-            yield parts_of(m._replace(elements=kept, force=force, sensor=sensor))
+# bridges: elements (power of x, node, node) of two kinds, seen between the nodes 0 and 1
+
+
+def one_port(bridge, low, high):
+    """What is seen of a bridge between two nodes, which become 0 and 1: no node holds an element
+    apart from both. None if they are one node or not joined.
+    """
+    kept = bridge = [(p, a, b) for p, a, b in bridge if a != b]
+    pairs = [(low, high), *((a, b) for _, a, b in bridge)]
+    nodes = {x for pair in pairs for x in pair}
+    for held in nodes if low != high else ():
+        of = classes(
+            [pair for pair in pairs if held not in pair] + [(x, x) for x in nodes - {held}]
+        )
+        part = of[high if held == low else low]
+        kept = [e for e in kept if {of.get(x, part) for x in e[1:]} == {part}]
+    inner = sorted({x for _, *ends in kept for x in ends} - {low, high})
+    to = {x: i for i, x in enumerate((low, high, *inner))}
+    return tuple((p, *sorted((to[a], to[b]))) for p, a, b in kept) if low != high else ()
+
+
+def one_less(bridge):
+    """Yield (place of an element, whether it becomes rigid or vanishes, what is left)."""
+    for i, rigid in product(range(len(bridge)), (False, True)):
+        at = {bridge[i][2]: bridge[i][1]} if rigid else {}
+        kept = [(p, at.get(a, a), at.get(b, b)) for p, a, b in bridge[:i] + bridge[i + 1 :]]
+        if rest := one_port(kept, 0, at.get(1, 1)):
+            yield i, rigid, rest
+
+
+@cache
+def numbers_of(bridge):
+    """(n, c, z): trees of numerator and denominator have so many powers of x; c and z are 1 where
+    one kind alone does not join the ends.
+    """
+
+    def joined(powers):
+        of = classes((a, b) for p, a, b in bridge if p in powers)
+        return len(of) - len({*of.values()}), of.get(0, 0) == of.get(1, 1)
+
+    (low, is_low), (high, is_high), (every, _) = joined({0}), joined({1}), joined({0, 1})
+    return low + high - every, int(not is_high), int(not is_low)
+
+
+@cache
+def is_regular(bridge):
+    """Whether the function determines as many values as there are."""
+    parts = [element("kd"[p], f"{'kd'[p]}{i}", a, b) for i, (p, a, b) in enumerate(bridge)]
+    return profile(model(f"{bridge}", parts, (1, 0), (1, 0))).full_rank == len(bridge)
+
+
+@cache
+def is_proper_map(bridge):
+    """Whether nothing that remains of a bridge of K(n, c, z) is of K(m, c, z), m >= n. What has
+    fewer poles, the one at 0 with them, is not taken apart: nothing that remains of it has more.
+    """
+    n, *ends = numbers_of(bridge)
+    todo, met = [bridge], set()
+    while todo:
+        for _, _, rest in one_less(todo.pop()):
+            m, *others = numbers_of(rest)
+            if others == ends and m >= n:
+                return False
+            if rest not in met and m + others[1] >= n + ends[1]:
+                todo.append(rest)
+            met.add(rest)
+    return True
+
+
+@cache
+def degree(bridge):
+    """The degree of the map from values to K(n, c, z), or None where it is not known here: the sum
+    over what is left without one element, on the face K(n-1, 1, z) or K(n, 0, z) of K. There one
+    coefficient is 0, the last of the denominator or of the numerator. A determinant with one entry
+    in this column, in the row of the element, gives the sign.
+    """
+    (n, c, z), size = numbers_of(bridge), len(bridge)
+    if not size == 2 * n + c + z <= 10 or not is_proper_map(bridge):
+        return None
+    face, column = ((n, 0, z), n + z) if c else ((n - 1, 1, z), size)
+    total = int(size == 1)
+    for i, rigid, rest in one_less(bridge):
+        if len(rest) == size - 1 and numbers_of(rest) == face and is_regular(rest):
+            if (found := degree(rest)) is None:
+                return None
+            total += found * (-1) ** (i + 1 + column + rigid)
+    return total
 
 
 # compartments: outflows that may be moved, trees that hang at one compartment
