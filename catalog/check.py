@@ -23,7 +23,7 @@ import time
 from collections import Counter, namedtuple
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache
-from itertools import combinations, compress, count, permutations, product
+from itertools import combinations, compress, count, islice, permutations, product
 from operator import mul as times
 from pathlib import Path
 
@@ -1320,24 +1320,50 @@ def replaceable(a, b):
 # (disting/guide/replacement.md and positive-values.md)
 
 
-def masses_and_springs(m):
-    """Both, where there is one mass at each node, and nothing but springs beside them."""
-    masses, springs = ([e for e in m.elements if e.kind == kind] for kind in "mk")
-    is_whole = sorted((e.a, e.b) for e in masses) == [(i, 0) for i in range(1, m.nodes + 1)]
-    if not is_whole or len(masses) + len(springs) < len(m.elements):
-        raise NotImplementedError("no undamped machine")
-    return masses, springs
+def as_chain(ends, part, ground, fresh):
+    """(nodes with a mass, springs) of a part of which all masses meet in the ground: of two kinds
+    it is a chain of masses that is seen at its end; None of others.
+    """
+    if part == ("one", 0):
+        return [], [ends]
+    shape, *numbers = ("two", 0, 2, 0, 0, 1) if part == ("one", 2) else part
+    if shape != "two" or numbers[:2] != [0, 2] or numbers[3] or ground not in ends:
+        return None
+    n, _, z = numbers[2:]
+    row = [sum(ends) - ground, *islice(fresh, n + z - 1)]
+    return row, [*zip(row, [*row[1:], ground])][:n]
+
+
+def machines(m):
+    """Undamped machines, a mass at each node, that give the same as a network: itself; and what its
+    parts are where all masses meet in one node, which becomes the ground.
+    """
+    springs = [e for e in m.elements if e.kind == "k"]
+    masses = sorted((e.a, e.b) for e in m.elements if e.kind == "m")
+    if masses == [(i, 0) for i in range(1, m.nodes + 1)] and len(masses + springs) == len(m.names):
+        yield m
+    parts = {} if m.fixed else whole_parts(m)
+    for ground in {x for ends in parts for x in ends}:
+        fresh = count(m.nodes + 1)
+        rows = [as_chain(ends, part, ground, fresh) for ends, part in parts.items()]
+        masses, springs = [[x for row in rows for x in row[i]] if all(rows) else [] for i in (0, 1)]
+        to = {x: i for i, x in enumerate((ground, *masses))}
+        if {x for ends in (*parts, *springs, m.force, m.sensor) for x in ends} == {*to}:
+            drawn = [element("m", f"m{to[x]}", to[x], 0) for x in masses]
+            drawn += [element("k", f"k{i}", to[a], to[b]) for i, (a, b) in enumerate(springs)]
+            ports = (tuple(to[x] for x in port) for port in (m.force, m.sensor))
+            yield model(f"{m.text} at {ground}", drawn, *ports, m.order)
 
 
 def grounded_everywhere(m):
-    """The machine with a spring to the ground at each mass, which gives the same if springs join
-    all masses, some spring is at the ground, and force and sensor are at one mass each.
+    """A machine with a spring to the ground at each mass, which gives the same if springs join all
+    masses, some spring is at the ground, and force and sensor are at one mass each; else None.
     """
-    masses, springs = masses_and_springs(m)
+    masses, springs = ([e for e in m.elements if e.kind == kind] for kind in "mk")
     inner = [e for e in springs if e.a * e.b]
     is_whole = len(joined_nodes(inner, range(1, m.nodes + 1))) == 1
     if not is_whole or len(inner) == len(springs) or min(m.force) or min(m.sensor):
-        raise NotImplementedError("places of springs to the ground")
+        return None
     at_ground = [element("k", f"k{e.a} ground", e.a, 0) for e in masses]
     return model(m.text, (*masses, *inner, *at_ground), m.force, m.sensor, m.order)
 
@@ -1394,7 +1420,7 @@ def interlaced(m):
     functions whose zeros lie between neighbouring poles, no two between the same; None of others.
     A tree with one spring to the ground, or a machine that is one without some of its springs.
     """
-    masses, springs = masses_and_springs(m)
+    masses, springs = ([e for e in m.elements if e.kind == kind] for kind in "mk")
     x = profile(m)
     if x.degrees[1] != 2 * m.nodes or not x.den[0] or not zeros_are_of_parts(m, x, springs):
         return None
@@ -1509,22 +1535,36 @@ def is_cauer(m):
     return is_foster(m) and row[2] in (1, row[0])
 
 
+def functions_of(m, name):
+    """What a network gives by a theorem, in one form or several; networks that share one of them
+    give the same.
+    """
+    if name == "replacement":
+        return [normal_form(m)]
+    if name == "interlacing":
+        return [*filter(None, map(interlaced, machines(m)))]
+    return [*map(normal_form, filter(None, map(grounded_everywhere, machines(m))))]
+
+
+ON_NETWORKS = {
+    "replacement": "parts that can replace each other",
+    "interlacing": "zeros between poles, in both",
+    "springs to the ground": "the same with a spring to the ground at each mass",
+}
+
+
 def theorem(pair, e):
-    """Whether the theorem's premises hold for two chains; those of networks are not derived."""
+    """Whether the theorem's premises hold for two chains or two networks."""
     a, b, name = pair.left, pair.right, e["name"]
-    are_chains = is_chain(a) and is_chain(b)
-    if name == "replacement" and not are_chains and replaceable(a, b):
-        return Result(CHECKED, "parts that can replace each other")
-    if name == "interlacing" and not are_chains and interlaced(a) == interlaced(b) is not None:
-        return Result(CHECKED, "zeros between poles, in both")
-    if name == "springs to the ground" and not are_chains:
-        a, b = grounded_everywhere(a), grounded_everywhere(b)
-        if replaceable(a, b):
-            return Result(CHECKED, "the same with a spring to the ground at each mass")
+    alike, are_chains = factors(a) == factors(b), is_chain(a) and is_chain(b)
+    if name in ON_NETWORKS and alike and not are_chains:
+        found = functions_of(b, name)
+        if any(x in found for x in functions_of(a, name)):
+            return Result(CHECKED, ON_NETWORKS[name])
     plain = are_chains and all(indices(m)[7][:3] == ["()", "False", "False"] for m in (a, b))
     if not plain or name not in SAME_BY:
         return searched(f"theorem {name}: its premises are not derived again")
-    alike = factors(a) == factors(b) and all(indices(a)[i] == indices(b)[i] for i in (0, 6))
+    alike = alike and all(indices(a)[i] == indices(b)[i] for i in (0, 6))
     return result(alike and same_by(a, b, name), f"premises of {name}")
 
 

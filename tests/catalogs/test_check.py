@@ -377,7 +377,15 @@ def test_numbers_of_a_bridge_are_those_of_its_function(check):
     ("#~1, #~2, 1~2, 1~3; F1; S2:1", "#~1, #~2, 1~2, 1~3; F1; S2:1", False),
     ("1~2, 2~3; F1; S2", "1~2, 2~3; F1; S2", False),  # free
     ("#=1, 1=2, 1=3; F1; S2", "#=1, 1=2, 1=3; F1; S2", False),  # dampers
-    ("R1-p(R2,C1)", "R1-p(R2,C1)", False),
+    ("R1-p(R2,C1)", "R1-p(R2,C1)", False), ("1>2, 2>0; in 1; out 2", "1>2, 2>0; in 1; out 2", False),
+    # read from the parts of one of them or of both
+    ("1~2, 1~3, 1~4, #~1; F2; S2:1", "1~2, 1~3, 1~4, #~1; F2:1; S2:1", True),
+    ("1~2, 1~3, 1~4, #~1; F2; S2:1", "1~2, 1~3, 1~4, #~1; F2:1; S1:2", False),
+    ("#~1, 1~2, 2~3; F3; S3:2", "#~1, 1~2, 2~3; F2:1; S2:1", True),
+    ("#~1, #~2, 1~3; F3:2; S3:2", "#~1, 1~2, 1~3; F2; S2:1", True),
+    ("#~1, 1~2, 1~3; F3:2; S3:2", "#~1, 1~2, 2~3; F3; S3", True),  # by the degree of a bridge
+    ("1~2, 2~3; F1; S1:2", "1~2, 2~3; F2:1; S2:1", False),
+    ("j1 1 2, j2 2 3, k1 1 3, j3 1 0, k2 2 0, in 1 0, out 1 0", "#~1, 1~2, 2~3; F3; S3", False),
 ])  # fmt: skip
 def test_machines_with_any_zeros_between_their_poles(check, left, right, same):
     e = {"kind": "theorem", "name": "interlacing"}
@@ -392,7 +400,10 @@ def test_machines_with_any_zeros_between_their_poles(check, left, right, same):
     ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, 1~2, 1~3; F1; S2", False),
     ("#~1, 1~2, 1~3, 2~3; F1; S2", "1~2, 1~3, 2~3; F1; S2", False),  # no spring to the ground
     ("#~1, 1~2, 1~3; F1; S3:2", "#~2, 1~2, 1~3; F1; S3:2", False),  # between two masses
-    ("#~1, #~2, 1~3; F1; S3", "#~1, #~2, #~3, 1~3; F1; S3", False),  # of two parts
+    ("#~1, #~2, 1~3; F1; S3", "#~1, #~2, #~3, 1~3; F1; S3", True),  # one mass is not seen
+    ("#~1, #~2, 1~3; F1; S2:3", "#~1, #~2, 1~3; F1; S2:3", False),  # of two parts
+    # a tree that hangs at a mass is a chain
+    ("#~1, 1~2, 1~3, 2~3, 3~4, 3~5; F1; S2", "#~3, 1~2, 1~3, 2~3, 3~4, 4~5; F1; S2", True),
     ("#=1, 1=2; F1; S2", "#=2, 1=2; F1; S2", False),  # dampers
 ])  # fmt: skip
 def test_places_of_springs_to_the_ground(check, left, right, same):
