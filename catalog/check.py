@@ -2113,12 +2113,14 @@ def sets_of(n):
     return [c for k in range(n + 1) for c in combinations(range(1, n + 1), k)]
 
 
-def apart(a, b):
-    """Whether degrees, varying coefficients, ranks or constants tell two models apart."""
-    exponents = [len(x.model.exponents) for x in (a, b)]
-    if a.degrees != b.degrees or a.model.delay != b.model.delay or exponents[0] != exponents[1]:
-        return True
-    return a.full_rank != b.full_rank or a.varying != b.varying or a.constants != b.constants
+@cache
+def coarse(x):
+    """Degrees, rank, coefficients that vary, values of the others, dead time, exponents: models
+    that differ in one of them differ.
+    """
+    constants = sorted(x.constants.items())
+    own = x.model.delay, len(x.model.exponents)
+    return x.degrees, x.full_rank, sorted(x.varying), constants, *own
 
 
 Damped = namedtuple("Damped", "x base dampers form columns group renamed free")
@@ -2183,7 +2185,7 @@ ALL = ("H", "1/G", "G")
 
 def told_apart(a, b, kinds):
     """Whether degrees, ranks, constants or dependences of these kinds tell two models apart."""
-    return apart(a, b) or any(a.dependent(kind) != b.dependent(kind) for kind in kinds)
+    return coarse(a) != coarse(b) or any(a.dependent(kind) != b.dependent(kind) for kind in kinds)
 
 
 def same_classes(table, name, models):
@@ -2224,11 +2226,6 @@ def reasons(table, name, models):
             first = free.setdefault(m.free, m)
             right = m.x.full_rank == len(m.x.varying) and coarse(m.x) == coarse(first.x)
             expect(table, "dampers", "model", "free", right and first.group == m.group, name)
-
-
-def coarse(x):
-    """Degrees, rank, coefficients that vary and values of the others."""
-    return x.degrees, x.full_rank, sorted(x.varying), sorted(x.constants.items())
 
 
 def parted(buckets, key):
@@ -2432,17 +2429,17 @@ def networks_file(table, name, lines):
 
 def unlisted(table, kind, name, models, groups, verdicts, scale):
     """Pairs that are not there are told apart; pairs of one class are all there."""
+    of = {x: profile(m, scale) for x, m in models.items()}
     for a, b in combinations(models, 2):
         where = f"{name} {a} {b}"
         if groups[a] and groups[a] == groups[b]:
             if (a, b) not in verdicts:
                 expect(table, kind, "pair", "class", False, where, "a pair of a class is missing")
-            elif verdicts[a, b] != SAME and apart(*(profile(models[x], scale) for x in (a, b))):
+            elif verdicts[a, b] != SAME and told_apart(of[a], of[b], ()):
                 expect(table, kind, "pair", "class", False, where, "told apart by invariants")
         else:
-            x, y = profile(models[a], scale), profile(models[b], scale)
             told = Result(CHECKED, "invariants"), searched("degrees, ranks, dependences agree")
-            differ = told_apart(x, y, ("H", "1/G") if not models[a].exponents else ())
+            differ = told_apart(of[a], of[b], ("H", "1/G") if not models[a].exponents else ())
             table.add(kind, "unlisted", "", told[not differ], where)
 
 
