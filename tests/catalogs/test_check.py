@@ -5,12 +5,14 @@ other names, a relation that does not hold, and what an engine with a fault woul
 import copy
 import json
 import os
+import random
 import re
 import shutil
 import subprocess
 import sys
 from importlib import resources
 from importlib.util import module_from_spec, spec_from_file_location
+from math import prod
 from pathlib import Path
 from typing import get_args
 
@@ -250,6 +252,12 @@ def test_witnesses_that_do_not_fit_are_refused(check):
     ("C1 1 2; R1 1 3; C2 2 3; R2 2 0; R3 3 0", "R1-p(C1,R2)-p(C2,R3)", False),
     ("R1 1 2; R2 1 3; C1 2 3; R3 2 0; L1 3 0", "R1-p(R2,C1)", False),
     ("1~2, 1~3; F2:1; S2:1", "1~2, 1~3; F2:1; S1:2", False),
+    # bridges of which no part remains that shows it: by the degree of their map
+    ("#~1, 1~2, 1~3; F3:2; S3:2", "#~1, 1~2, 2~3; F3; S3", True),
+    ("#~1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 1~3; F2:3; S2:3", True),
+    ("#~1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 1~3; F2:3; S3:2", False),
+    ("#~1, 1~2, 2~3; F3:1; S3:1", "1~2, 2~3; F1; S1", False),
+    ("#=1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 2~3; F3; S3", False),
     ("R1 1 2; R2 1 3; C1 2 3; R3 2 0; R4 3 0; R5 2 2", "R1-p(R2,C1)", True),
     # outflows of compartments: moved to a gate, left out between two, and where they may not be
     ("1>2, 2>1, 2>0; in 1; out 1", "1>0, 1>2, 2>1; in 1; out 1", True),
@@ -272,6 +280,92 @@ def test_parts_that_can_replace_each_other(check, left, right, same):
     assert check.replaceable(check.network(left), check.network(right)) == same
 
 
+def bridge_of(check, text):
+    m = check.network(text)
+    powers = sorted({e.power for e in m.elements})
+    return check.one_port([(powers.index(e.power), e.a, e.b) for e in m.elements], *m.force)
+
+
+@pytest.mark.parametrize(("text", "degree"), [
+    # in series and parallel: values that branches exchange
+    ("R1", 1), ("R1-p(C1,R2-C2)", 1), ("p(R1-C1,R2-C2)", 2), ("p(R1-C1,R2-C2,R3-C3)", 6),
+    ("p(R1-C1,R2-p(C2,R3-C3))", 3), ("p(R1,C1)-p(R2,C2)", 2),
+    # as lists of all values say
+    ("#~1, 1~2, 1~3; F3:2; S3:2", 2), ("#~1, 1~2, 2~3; F3:1; S3:1", 1),
+    # as exact algebra says; with 0 some functions of K are not given
+    ("C1 1 2; R1 1 3; C2 2 3; R2 2 0; R3 3 0", 0), ("C1 1 2; R1 1 3; R2 2 3; R3 2 0; C2 3 0", 0),
+    ("1~2, 1~3, 2~4, #~3; F4; S4", 1), ("1~2, 1~3, 2~4, #~3; F4:3; S4:3", 1),
+    *(pytest.param(*case, marks=pytest.mark.full) for case in [
+        ("1~2, 1~3, 1~4, #~2; F3:2; S3:2", 2), ("1~2, 1~3, 1~4, #~2; F4:3; S4:3", 2),
+        ("1~2, 1~3, 2~4, #~1; F3:2; S3:2", 5), ("1~2, 1~3, 2~4, #~1; F4:3; S4:3", 3),
+        ("1~2, 1~3, 2~4, #~3; F4:1; S4:1", 1), ("1~2, 1~3, 2~4, #~3; F3:2; S3:2", 3),
+    ]),
+])  # fmt: skip
+def test_degree_of_a_bridge(check, text, degree):
+    """But for the sign, which is that of an order of the elements."""
+    assert abs(check.degree(bridge_of(check, text))) == degree
+
+
+@pytest.mark.parametrize("text", [
+    "p(R1,R2-p(R3,C1))", "R1 1 2; R2 1 3; C1 2 3; R3 2 0; R4 3 0", "p(R1,R2-p(R3,C1-C2),C3)",
+])  # fmt: skip
+def test_more_elements_than_coordinates_have_no_degree_here(check, text):
+    assert check.degree(bridge_of(check, text)) is None
+
+
+def test_no_degree_where_functions_of_K_come_from_less(check):
+    assert check.is_proper_map(bridge_of(check, "R1-p(C1,R2)"))
+    assert not check.is_proper_map(bridge_of(check, "R1-p(C1,R2-C2,R3-C3)-p(R4,R5-C4)"))
+
+
+def signs_of_map(check, bridge, values):
+    """The determinant of all coefficients and their derivatives by the values."""
+    parts = [check.element("kd"[p], f"e{i}", a, b) for i, (p, a, b) in enumerate(bridge)]
+    num, den = check.symbolic(check.model("", parts, (1, 0), (1, 0)))
+    row = [terms for side in (num, den) for _, terms in sorted(side.items())]
+
+    def at(terms, without):
+        held = {k: v for k, v in terms.items() if without is None or k[without]}
+        kept = (tuple(e * (i != without) for i, e in enumerate(k)) for k in held)
+        return sum(v * prod(map(pow, values, k)) for k, v in zip(kept, held.values(), strict=True))
+
+    rows = [[at(terms, i) for terms in row] for i in (None, *range(len(values)))]
+    p = 2**521 - 1  # above twice the determinant: all numbers are whole
+    return check.signed(check.reduced(rows, len(rows), p)[2], p)
+
+
+@pytest.mark.parametrize("text", [
+    "#~1, 1~2, 1~3; F3:2; S3:2", "#~1, 1~2, 2~3; F3:1; S3:1", "R1-p(C1,R2-C2)",
+])  # fmt: skip
+def test_a_face_has_the_sign_of_the_column_and_row_that_are_left_out(check, text):
+    bridge = bridge_of(check, text)
+    (n, c, z), size, met = check.numbers_of(bridge), len(bridge), 0
+    face, column = ((n, 0, z), n + z) if c else ((n - 1, 1, z), size)
+    for i, rigid, rest in check.one_less(bridge):
+        if len(rest) == size - 1 and check.numbers_of(rest) == face and check.is_regular(rest):
+            values = [3, 5, 7, 11, 13, 17][: size - 1]
+            close = 10**8 if rigid else 1
+            scaled = [v * (1 if rigid else 10**8) for v in values]
+            there = signs_of_map(check, bridge, [*scaled[:i], close, *scaled[i:]])
+            sign = (-1) ** (i + 1 + column + rigid)
+            assert there * signs_of_map(check, rest, values) * sign > 0
+            met += 1
+    assert met
+
+
+def test_numbers_of_a_bridge_are_those_of_its_function(check):
+    draw = random.Random(1)
+    for _ in range(60):
+        size = draw.randint(2, 5)
+        parts = [(draw.randint(0, 1), *draw.sample(range(size), 2)) for _ in range(6)]
+        parts += [(draw.randint(0, 1), i, i + 1) for i in range(size - 1)]
+        whole = [check.element("kd"[p], f"e{i}", a, b) for i, (p, a, b) in enumerate(parts)]
+        x = check.Profile(check.model(f"{parts}", whole, (1, 0), (1, 0)))
+        zero = int(x.den[0] == 0)
+        found = x.degrees[1] - zero, int(x.degrees[0] == x.degrees[1]), zero
+        assert check.numbers_of(check.one_port(parts, 1, 0)) == found
+
+
 @pytest.mark.parametrize(("left", "right", "same"), [
     ("#~1, 1~2, 1~3; F1; S2", "#~1, 1~2, 2~3; F1; S2", True),  # a mass is held
     ("#~1, 1~2, 1~3; F1; S2:1", "#~1, 1~2, 2~3; F2:1; S3:2", True),  # a spring is cut
@@ -283,7 +377,15 @@ def test_parts_that_can_replace_each_other(check, left, right, same):
     ("#~1, #~2, 1~2, 1~3; F1; S2:1", "#~1, #~2, 1~2, 1~3; F1; S2:1", False),
     ("1~2, 2~3; F1; S2", "1~2, 2~3; F1; S2", False),  # free
     ("#=1, 1=2, 1=3; F1; S2", "#=1, 1=2, 1=3; F1; S2", False),  # dampers
-    ("R1-p(R2,C1)", "R1-p(R2,C1)", False),
+    ("R1-p(R2,C1)", "R1-p(R2,C1)", False), ("1>2, 2>0; in 1; out 2", "1>2, 2>0; in 1; out 2", False),
+    # read from the parts of one of them or of both
+    ("1~2, 1~3, 1~4, #~1; F2; S2:1", "1~2, 1~3, 1~4, #~1; F2:1; S2:1", True),
+    ("1~2, 1~3, 1~4, #~1; F2; S2:1", "1~2, 1~3, 1~4, #~1; F2:1; S1:2", False),
+    ("#~1, 1~2, 2~3; F3; S3:2", "#~1, 1~2, 2~3; F2:1; S2:1", True),
+    ("#~1, #~2, 1~3; F3:2; S3:2", "#~1, 1~2, 1~3; F2; S2:1", True),
+    ("#~1, 1~2, 1~3; F3:2; S3:2", "#~1, 1~2, 2~3; F3; S3", True),  # by the degree of a bridge
+    ("1~2, 2~3; F1; S1:2", "1~2, 2~3; F2:1; S2:1", False),
+    ("j1 1 2, j2 2 3, k1 1 3, j3 1 0, k2 2 0, in 1 0, out 1 0", "#~1, 1~2, 2~3; F3; S3", False),
 ])  # fmt: skip
 def test_machines_with_any_zeros_between_their_poles(check, left, right, same):
     e = {"kind": "theorem", "name": "interlacing"}
@@ -298,7 +400,10 @@ def test_machines_with_any_zeros_between_their_poles(check, left, right, same):
     ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, 1~2, 1~3; F1; S2", False),
     ("#~1, 1~2, 1~3, 2~3; F1; S2", "1~2, 1~3, 2~3; F1; S2", False),  # no spring to the ground
     ("#~1, 1~2, 1~3; F1; S3:2", "#~2, 1~2, 1~3; F1; S3:2", False),  # between two masses
-    ("#~1, #~2, 1~3; F1; S3", "#~1, #~2, #~3, 1~3; F1; S3", False),  # of two parts
+    ("#~1, #~2, 1~3; F1; S3", "#~1, #~2, #~3, 1~3; F1; S3", True),  # one mass is not seen
+    ("#~1, #~2, 1~3; F1; S2:3", "#~1, #~2, 1~3; F1; S2:3", False),  # of two parts
+    # a tree that hangs at a mass is a chain
+    ("#~1, 1~2, 1~3, 2~3, 3~4, 3~5; F1; S2", "#~3, 1~2, 1~3, 2~3, 3~4, 4~5; F1; S2", True),
     ("#=1, 1=2; F1; S2", "#=2, 1=2; F1; S2", False),  # dampers
 ])  # fmt: skip
 def test_places_of_springs_to_the_ground(check, left, right, same):

@@ -225,11 +225,63 @@ def test_indices_of_no_chain_are_refused(check, indices):
         check.chain(3, 0, 0, 1, 0, 1, True, (4,))
 
 
+def test_a_chain_is_damped_or_not(check):
+    """1 stands for True: built as a damped chain, it would be read as an undamped one."""
+    ends = [[0, 0, 1, 0, 1], [0, 0, 2, 0, 2]]
+    for damped, *others in ((1, False, False), (True, 0, False), (True, False, 0), (None,)):
+        with pytest.raises(ValueError, match="no chain"):
+            check.chain(3, *ends[0], damped, (), *others)
+    models = [check.chain(3, *end, True) for end in ends]
+    e = {"kind": "theorem", "name": "Foster"}
+    assert check.evidence(check.pair_of(*models), e).status == check.WRONG
+
+
+def test_one_mass_is_one_equation(check):
+    """Of two damped chains whose cones do not meet by their dimensions."""
+    small, big = check.chain(3, 0, 0, 1, 0, 1, True), check.chain(4, 1, 1, 2, 1, 4, True)
+    x, y = map(check.profile, (small, big))
+    least = min(a - b for a, b in zip(y.degrees, x.degrees, strict=True))
+    e = {"kind": "meeting", "left_is_larger": False, "rank": y.full_rank, "factors": least + 1,
+         "coordinates": sum(y.degrees) + 2}  # fmt: skip
+    pair = check.pair_of(small, big)
+    for same_mass in (False, True, 2, 50):
+        assert check.evidence(pair, e | {"same_mass": same_mass}).status == check.WRONG
+
+
 def test_a_root_of_s_is_no_resistor(check):
     """A file of circuits counts powers of s, not of its root: W1 would have power 0."""
     a, b = check.network("p(W1,C1)"), check.network("p(R1,C1)")
     e = {"kind": "free-choice", "rank": 2, "free": ["b0", "a0"]}
     assert check.evidence(check.pair_of(a, b), e).status == check.WRONG
+
+
+@pytest.mark.parametrize(("part", "whole"), [
+    ("P1", "p(P1,P2)"), ("P1-p(P2,R1)", "P1-p(P2,R1,P3)"),
+])  # fmt: skip
+def test_a_constant_phase_element_more_is_no_embedding(check, part, whole):
+    """Two exponents are two powers of s, not one that stands for both."""
+    pair = check.pair_of(check.network(part), check.network(whole), 2)
+    nodes = [[i, i] for i in range(pair.left.nodes + 1)]
+    for rank in range(9):
+        e = {"kind": "embedding", "left_is_submodel": True, "numbering": nodes, "rank": rank}
+        assert check.evidence(pair, e).status == check.WRONG
+
+
+def test_a_number_that_is_minus_one_modulo_the_prime_has_no_sign(check):
+    """Whoever writes formulas cannot know the prime that they are put in modulo."""
+    pair = check.pair_of(check.network("p(R1,R2)"), check.network("R1-R2"))
+    whole, half = "R1*R2/(R1+R2)", "1/2*R1*R2/(R1+R2)"
+    back = [False, [], [["R1", "2*(R1+R2)"], ["R2", "2*(R1+R2)"]], None]
+
+    def status(first, second):
+        formulas = [[True, [], [["R1", first], ["R2", second]], None], back]
+        e = {"kind": "explicit", "domain": "positive", "formulas": formulas}
+        return check.evidence(pair, e).status
+
+    assert status(half, half) == check.CHECKED
+    assert status(f"{whole}-R1", "R1") == check.SEARCH
+    for label in (pair.label, f"{pair.left.nodes} nodes", f"{pair.right.nodes} nodes"):
+        assert status(f"{whole}+{check.prime_of(label) - 1}*R1", "R1") == check.WRONG
 
 
 def test_a_dead_time_is_no_coefficient(check):
@@ -334,10 +386,38 @@ def test_a_forged_verdict_is_refused(check, models, evidence, others):
     assert check.WRONG in statuses(verdict(check, models, evidence, **others))
 
 
+def test_evidence_within_evidence_of_its_own_pair_is_not_read(check):
+    """Degrees show that two differ, whatever is written inside them."""
+    e = {"kind": "counts", "left": [0, 0], "right": [0, 1]}
+    told = {"decided_by": "1", "certainty": "proven"}
+    models = [{"network": "R1"}, {"network": "C1"}]
+    whole = verdict(check, models, e, relation="distinguishable", **told)
+    assert statuses(whole) == {check.CHECKED}
+    for forged in (e, e | {"inner": EQUAL}, e | {"inner": EQUAL | {"domain": "positive"}}):
+        assert check.WRONG in statuses(verdict(check, models, forged, **told))
+
+
+def test_networks_that_give_more_show_only_a_difference(check):
+    ends = {"left": "k1 1 2, j1 1 0, j2 2 0, k2 1 3, j3 3 0, in 1 0, out 1 0",
+            "right": "k1 1 2, j1 1 0, j2 2 0, k2 2 3, j3 3 0, in 1 0, out 1 0"}  # fmt: skip
+    for left, right in ((False, False), (True, False), (False, True)):
+        e = {"kind": "replaced", **ends, "left_larger": left, "right_larger": right}
+        found = statuses(verdict(check, TREES, e | {"inner": REPLACEMENT}, certainty="proven"))
+        assert (check.WRONG in found) == (left or right), found
+
+
+BENCH = {"elements": [["m1", 1], ["m2", 2], ["k12", 1, 2]], "force": [[1, 0]], "sensor": [[1, 0]],
+         "quantity": "acceleration"}  # fmt: skip
+
+
 @pytest.mark.parametrize("models", [
     [CHAIN, CHAIN | {"act_minus": 2}], [CHAIN, CHAIN | {"meas_plus": 9}],
     [CHAIN, CHAIN | {"known": {"m1": 1}}],
     [TREES[0], TREES[0] | {"known": {"m1": 1}}],
+    # read in two ways: which of them is meant is not said
+    [TREES[0], TREES[0] | {"sensor": "position"}], [TREES[0], CHAIN | TREES[0]],
+    [BENCH, BENCH | TREES[0]], [BENCH, BENCH | {"port": [[1, 2]]}],
+    [BENCH, {key: BENCH[key] for key in ("elements", "force", "sensor")}],
     [TREES[0], {"name": "x", "elements": [["m1", 1, 0, "", 7]], "force": [[1, 0]],
                 "sensor": [[1, 0]], "quantity": "acceleration"}],
 ])  # fmt: skip
