@@ -1014,11 +1014,11 @@ def symbolic(m):
         if m.fixed:
             a[i][i][s] += 1
     one = (0,) * size
-    for port, put in ((m.force, 0), (m.sensor, 1)):
-        for end, sign in zip(port, (1, -1)):
-            if end:
-                i, j = (end - 1, m.nodes) if put == 0 else (m.nodes, end - 1)
-                a[i][j][one] += sign if put == 0 else -sign
+    for force, sensor, sign in zip(m.force, m.sensor, (1, -1)):
+        if force:
+            a[force - 1][m.nodes][one] += sign
+        if sensor:
+            a[m.nodes][sensor - 1][one] -= sign
 
     def det(rows, columns):
         if not rows:
@@ -1195,8 +1195,8 @@ def full_set(m):
 
 
 def one_port(bridge, low, high):
-    """What is seen of a bridge between two nodes, which become 0 and 1: no node holds an element
-    apart from both. None if they are one node or not joined.
+    """What is seen of a bridge between two nodes, which become 0 and 1: an element that one held
+    node cuts off from both is not. Nothing if they are one node or not joined.
     """
     kept = bridge = [(p, a, b) for p, a, b in bridge if a != b]
     pairs = [(low, high), *((a, b) for _, a, b in bridge)]
