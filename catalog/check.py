@@ -1965,11 +1965,16 @@ FIELDS = {
 }
 
 
+def has_fields(slot, told):
+    """Whether a verdict has the fields of its place; one that is open has no evidence."""
+    fields = {*FIELDS[slot].split(), "certainty", "safety", "evidence"}
+    return fields <= told.keys() | {"evidence"} <= fields | {"empirical"}
+
+
 def unfounded(slot, told, e, pair):
     """What a verdict says that its evidence does not show; "" if nothing."""
     kind = e["kind"]
-    fields = {*FIELDS[slot].split(), "certainty", "safety", "evidence"}
-    if not fields <= told.keys() <= fields | {"empirical"}:
+    if not has_fields(slot, told):
         return "fields are missing or unknown"
     is_more = is_by_algebra(told["certainty"], pair, e)  # no catalogue is built so
     if is_more or not is_certain(told["certainty"], told["safety"], e, pair):
@@ -2028,6 +2033,7 @@ def claim(table, kind, slot, told, pair, where):
         table.add(kind, slot, str(e.get("kind")), found, where)
         return told.get("relation", *shows(e)[:1])
     right = told.get("relation", told.get("inclusion")) in ("undecided", "unknown")
+    right = right and has_fields(slot, told)
     if not right or any(map(told.get, DECIDED)) or not told.get("reason", "-"):
         expect(table, kind, slot, "none", False, where, "a verdict without evidence")
     return "undecided"
@@ -2389,6 +2395,7 @@ def over_positive(table, kind, where, r, pair):
     fits = fits and [told["certainty"], told["safety"]] == given[1:]
     if given[0] == "abandoned":
         fits = (*words, told["certainty"], told["safety"]) == ("undecided", "", "", "", 0)
+    fits = fits and has_fields("positive", told)
     return expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
 
 
