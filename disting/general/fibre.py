@@ -6,27 +6,19 @@ parameters are fixed at random positive rational values, and the members found t
 That no member at all is real or positive is proven only where one polynomial of the basis shows
 it: one whose coefficients all have the same sign has no positive zero, one in a single unknown
 without real roots no real one.
-
-Solutions without zeros are those of the equations in the inverses of some unknowns, cleared of
-denominators, with t times all unknowns = 1. A basis may be small for one choice of these and out of
-reach for all others.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from itertools import combinations
 from typing import Any
 
-from flint import fmpq_poly, fmpz_mpoly, fmpz_poly
+from flint import fmpz_mpoly, fmpz_poly
 
 from disting.algebra.certainty import residues
 from disting.algebra.groebner.modular import Sparse
 from disting.algebra.groebner.rational import (
     Basis,
     Bounds,
-    Shape,
-    TooLarge,
     basis,
     shape,
 )
@@ -85,51 +77,6 @@ def _list_solutions(
             equivalents(the_shape, parameters), key=lambda x: [(z.real, z.imag) for z in x.numbers]
         )
     )
-
-
-def without_zeros(
-    equations: Sequence[Sparse], parameters: tuple[str, ...], seed: str, bounds: Bounds
-) -> tuple[Equivalent, ...] | None:
-    """All solutions without zeros of equations in t, which they do not determine, and the
-    parameters, if finitely many are listed within the bounds for some choice of inverses.
-    """
-    unknowns = range(1, len(parameters) + 1)
-    choices = (c for count in (0, *unknowns) for c in combinations(unknowns, count))
-    for chosen in choices:
-        try:
-            the_shape = shape(
-                _invert_unknowns(equations, chosen), len(parameters) + 1, bounds, seed
-            )
-        except TooLarge:
-            continue
-        if the_shape:
-            whole = the_shape.polynomial
-            back = [
-                _inverse(g, whole) if i in chosen else g
-                for i, g in enumerate(the_shape.coordinates)
-            ]
-            return tuple(equivalents(Shape(whole, tuple(back)), parameters))
-    return None
-
-
-def _invert_unknowns(equations: Sequence[Sparse], chosen: tuple[int, ...]) -> list[Sparse]:
-    """The equations in the inverses of the chosen unknowns, and that no unknown is zero."""
-    made = list[Sparse]()
-    for equation in equations:
-        size = len(next(iter(equation)))
-        top = [max(e[i] for e in equation) if i in chosen else 0 for i in range(size)]
-        turned = (
-            (tuple(abs(t - e) for t, e in zip(top, powers, strict=True)), c)
-            for powers, c in equation.items()
-        )
-        made.append(dict(turned))
-    return [*made, {(1,) * size: 1, (0,) * size: -1}]
-
-
-def _inverse(number: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """1/number modulo a polynomial without common zeros."""
-    _, factor, _ = number.xgcd(modulus)
-    return factor % modulus
 
 
 def _family(

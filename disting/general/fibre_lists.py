@@ -30,7 +30,7 @@ from disting.algebra.groebner.rational import Bounds, TooLarge
 from disting.errors import InputError
 from disting.general.any_model import in_powers
 from disting.general.equivalent import Equivalent, sign_at
-from disting.general.fibre import Extent, solve, without_zeros
+from disting.general.fibre import Extent, solve
 from disting.general.matrix_model import AnyModel, Model
 from disting.general.powers import MOST_EXPONENTS, Powers, place_name, placed_network
 from disting.general.target import Target, Values, fibre_equations, rational_values, target
@@ -105,18 +105,12 @@ def is_regular(model: Model, values: Values) -> bool:
     )
 
 
-def positive(goal: Target, other: Model, thorough: bool = False) -> tuple[Equivalent, ...] | None:
-    """All positive equivalents; None where they are not all known. `thorough`: where that grows too
-    large, by equations in the inverses of some unknowns.
-    """
-    equations = fibre_equations(goal, other)
+def positive(goal: Target, other: Model) -> tuple[Equivalent, ...] | None:
+    """All positive equivalents; None where they are not all known."""
     try:
-        fibre = solve(equations, other.parameters, "list", Bounds())
+        fibre = solve(fibre_equations(goal, other), other.parameters, "list", Bounds())
     except TooLarge:
-        every = (
-            without_zeros(equations[:-1], other.parameters, "list", Bounds()) if thorough else None
-        )
-        return every and tuple(e for e in every if e.domain is Domain.POSITIVE)
+        return None
     if fibre.extent in (Extent.NONE, Extent.FINITE):
         return tuple(e for e in fibre.equivalents if e.domain is Domain.POSITIVE)
     return () if Domain.POSITIVE in fibre.excluded or Domain.REAL in fibre.excluded else None
@@ -181,7 +175,7 @@ def orientation(model: Model, at: Equivalent) -> int:
     modulus = fmpq_poly(list(at.polynomial))
     values = [fmpq_poly([fmpq(x.numerator, x.denominator) for x in c]) for c in at.coordinates]
     total = fmpq_poly([0])
-    for powers, number in _jacobian(model).to_dict().items():
+    for powers, number in jacobian(model).to_dict().items():
         term = fmpq_poly([int(number)])
         for x, e in zip(values, powers, strict=True):
             term = term * x ** int(e) % modulus
@@ -190,9 +184,17 @@ def orientation(model: Model, at: Equivalent) -> int:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _jacobian(model: Model) -> fmpz_mpoly:
+def jacobian(model: Model) -> fmpz_mpoly:
+    """The determinant of the matrix of the n + 1 coefficients that are not always zero and their
+    derivatives.
+    """
     context = fmpz_mpoly_ctx.get(model.parameters, Ordering.lex)
-    row = [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]
+    row = coefficients(model)
     derivatives = [[c.derivative(i) for c in row] for i in range(len(model.parameters))]
     polynomials = subdeterminants([row, *derivatives], {0: context.constant(1)})
     return polynomials.get((1 << len(row)) - 1, context.constant(0))
+
+
+def coefficients(model: Model) -> list[fmpz_mpoly]:
+    """Those that are not always zero."""
+    return [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]

@@ -3,7 +3,7 @@ parts that can replace each other, or both are one-ports of two kinds of element
 functions of one set K(n, c, z) (see `disting.network.normal_form`).
 
 One-ports that are not made in series and parallel, such as bridges. Let N be a one-port of two
-kinds of elements, and let one of its minors, in series and parallel, be of the same n, c, z.
+kinds of elements, and let one of its minors be of the same n, c, z and give all of K(n, c, z).
 
 THEOREM. For generic values N gives functions of K(n, c, z) only, and all of them but special ones.
 Proof. P = s^(r_A) (A + x B) with A, B positive semidefinite, so the compliance is s^(-r_A) F(x),
@@ -15,13 +15,13 @@ e >= 0: the map of N depends smoothly on p and e, and at e = 0 it is that of the
 derivatives by p have full rank at the p of F_0. So for small e > 0 some p near by gives F_0
 (implicit function theorem).
 
-Whether a one-port of two kinds of elements gives all functions of K(n, c, z), by the degree of
-its map: bridges of which no part in series and parallel remains that would show it.
+Where nothing smaller remains that gives as much, as of bridges with as many elements as K(n, c, z)
+has coordinates, the degree of the map decides.
 
 THEOREM. Let N be a one-port of d = 2 n + c + z elements whose generic functions are in K(n, c, z),
 and let no network that remains when elements are deleted or contracted have generic functions in
-K(m, c, z) with m >= n. Take values such that all positive values with the same function are
-regular. If the signs of the determinants there do not add up to 0, N gives all of K(n, c, z).
+K(m, c, z) with m >= n. Then its map into K has a degree, the sum over the values of any function at
+which all are regular of the signs of the determinants there. If it is not 0, N gives all of K.
 Proof. K is connected and oriented: the k and 0 < a_1 < a_2 < .. are coordinates. The values U for
 which N has order n are an open set of (0, oo)^d, and the map from U to K is proper: of values whose
 functions converge to F in K let those of each element converge in [0, oo] for a part of them. By
@@ -30,103 +30,176 @@ deleted and those that tend to oo contracted. Its functions are in K(m, c', z') 
 of generic ones; c' and z' are those of all its values: they are 0 where elements of the one kind,
 or of the other one, alone join the ends of the port. So F is none of them, unless no element tends
 to 0 or oo: the limit is in U. A proper map between oriented manifolds of one dimension, into a
-connected one, has a degree, the sum of signs over the values of any function at which all are
-regular, which is 0 if some function has none. The coefficients are coordinates of K up to a common
-factor of one sign, so that the determinant of them and their derivatives has the sign of the map
-everywhere, or everywhere its opposite. Networks that remain are examined while their degree (the
-larger one of numerator and denominator) is that of N: those of smaller degree have no functions in
-K(m, c, z), m >= n, nor has what remains of them, as limits have no larger degree.
+connected one, has a degree, which is 0 if some function has no values. The coefficients are
+coordinates of K up to a common factor of one sign, so that the determinant of them and their
+derivatives has the sign of the map everywhere, or everywhere its opposite. Networks that remain are
+examined while their degree (the larger one of numerator and denominator) is that of N: those of
+smaller degree have no functions in K(m, c, z), m >= n, nor has what remains of them, as limits have
+no larger degree.
+
+Let K' be K(n - 1, 1, z) if c = 0, where a_n tends to oo and k_n/a_n does not, and K(n, 0, z) if
+c = 1, where k tends to 0. K and K' together are a manifold whose boundary is K', with the
+coordinates 1/a_n >= 0 and k_n/a_n, or k >= 0. Let N_1, N_2, .. be the networks that remain when one
+element is deleted or contracted, that have d - 1 elements, generic functions in K', and regular
+values.
+THEOREM. If all of these have a degree, that of N is the sum of theirs, each times 1 or -1: the sign
+of N's determinant, while that element is near its limit, times the sign of that of the N_i.
+Proof. Let F in K' be regular for all N_i, and no function of a network of fewer elements, of one of
+no regular values, or of values of a larger order: these have fewer dimensions. Let functions of K
+tend to F, and of values with these functions let a part converge in [0, oo]. F is a function of
+what remains. That is not N, whose functions all have c and z, so something is gone, and as F is
+generic one element is gone and an N_i remains. Let e >= 0 be the value of the element that is
+deleted or the inverse of one that is contracted. The coefficients are affine in e, all their terms
+have one sign, and at e = 0 they are those of N_i but for one that vanishes, that of the highest
+power of x in the denominator, or of the numerator if c = 1: it is e times a factor that is not 0 at
+positive values. So the determinant at e = 0 is that of N_i times this factor: near such values the
+map is one to one, with e = 0 where it gives K'. Hence functions of K near F have exactly one set of
+values near each of those of F, and no other. The signs are those in question.
 """
 
-from collections.abc import Callable, Sequence
-from fractions import Fraction
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from itertools import combinations, product
+from itertools import product
+
+from flint import fmpz, fmpz_mat
 
 from disting.errors import InputError
-from disting.general.fibre_lists import goal_of, one_less, orientation, positive
+from disting.general.fibre_lists import coefficients, jacobian, one_less
 from disting.general.matrix_model import AnyModel, Model
 from disting.general.powers import placed_network
-from disting.general.target import Values
-from disting.network.network import Element, Network, Port, move
+from disting.network.network import Element, Network
 from disting.network.normal_form import Part, Power, normal_form
 from disting.network.simplest import same_but_for_gears, simplest
 
 ONE_PORTS = 1024  # one-ports: each is asked about in many pairs
-TRIES = 3  # points, of which almost all would do
-PRIMES = (2, 3, 5, 7, 11, 13, 17)  # values: of eight elements no list of all was seen to end
-SetOf = Callable[[Model], tuple[int, Part] | None]
+MOST_ELEMENTS = 10  # of a one-port whose degree is computed: what remains of it doubles with each
+POWERS = (1, 2, 3)  # of values at which a determinant may be 0 by chance
 TWO = 2  # kinds of elements
-MOST_LEFT_OUT = 3  # elements, of the minors that are looked at
 REMEMBERED = 4096
 
 
 @lru_cache(maxsize=ONE_PORTS)
-def covers(model: Model, whole: Part, set_of: SetOf) -> bool:
-    """Return True if a one-port of two kinds gives all functions of the set K(n, c, z), given as a
-    part, that contains its generic ones; False proves nothing.
+def degree(network: Network) -> int | None:
+    """The degree of the map of a one-port of two kinds of elements, or of one element, to its set
+    K(n, c, z), up to its sign; None where it is not shown to have one.
+
+    >>> from disting.network import network_of
+    >>> degree(network_of("#~1, 1~2, 2~3; F3:1; S3:1"))
+    1
     """
-    names, network = model.parameters, model.network
-    coefficients = [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]
-    d = 2 * _order(whole) + len(whole.single)
-    if network is None or not d == len(names) == len(network.seen) == len(coefficients) - 1:
-        return False
-    if d > len(PRIMES) or model.powers.weights or _some_minor_reaches(model, whole, set_of):
-        return False
-    points = (
-        {name: Fraction(PRIMES[(i * (k + 1)) % d], k + 1) for i, name in enumerate(names)}
-        for k in range(TRIES)
-    )
-    degrees = (_degree(model, values) for values in points)
-    return bool(next((degree for degree in degrees if degree is not None), 0))
+    model, kinds = Model.from_network(network), sorted({e.power for e in network.seen})
+    whole, d = _part_of(model), len(model.parameters)
+    if whole is None or not d == len(network.elements) == 2 * _order(whole) + len(whole.single):
+        return None
+    if d == 1:
+        return 1 if _determinant(model, _point(model, 1)) > 0 else -1
+    if d > MOST_ELEMENTS or model.powers.weights or _some_minor_reaches(network, whole):
+        return None
+    total, face = 0, _face(whole, kinds[0], kinds[-1])
+    for at, contracted, made in _one_less_each(network):
+        part = _part_of(made)
+        if part is None and len(made.parameters) == d - 1:
+            return None
+        if part == face and len(made.parameters) == d - 1 and _is_regular(made):
+            assert made.network is not None
+            known = degree(made.network)
+            if known is None:
+                return None
+            total += known * _sign_near(model, at, contracted, made)
+    return total
+
+
+def _part_of(model: Model) -> Part | None:
+    """K(n, c, z) as a part that gives it, that of a single kind of elements being one of them."""
+    assert model.network is not None
+    kinds = {e.power for e in model.network.seen}
+    if len(kinds) == 1:
+        return Part("S", (*kinds,))
+    own = set_of(model)
+    return own and own[1]
 
 
 def _order(part: Part) -> int:
     return sum(n for _, n in part.terms)
 
 
-def _some_minor_reaches(model: Model, whole: Part, set_of: SetOf) -> bool:
+def _face(whole: Part, low: Power, high: Power) -> Part:
+    """K': the constant vanishes, or a term becomes the constant."""
+    n = _order(whole)
+    if low in whole.single:
+        return Part("S", tuple(x for x in whole.single if x != low), whole.terms)
+    return Part("S", (low, *whole.single), (((low, high), n - 1),) if n > 1 else ())
+
+
+def _one_less_each(network: Network) -> Iterator[tuple[Element, bool, Model]]:
+    """Yield each element that can be deleted, or contracted, and what remains."""
+    for (at, e), contracted in product(enumerate(network.elements), (False, True)):
+        less = one_less(network, at, contracted)
+        if less is not None:
+            yield e, contracted, Model.from_network(less)
+
+
+def _is_regular(model: Model) -> bool:
+    """Return True if the determinant is not 0 at all values."""
+    numbers = (_determinant(model, _point(model, step)) for step in POWERS)
+    return any(numbers) or not jacobian(model).is_zero()
+
+
+def _sign_near(model: Model, gone: Element, contracted: bool, rest: Model) -> int:
+    """The sign of the determinant while an element is near its limit, times that of what remains:
+    the same at all values but those where one is 0.
+    """
+    at, to_zero = model.parameters.index(gone.value), contracted == gone.kind.divides
+    number, step = fmpz(0), 0
+    while not number:
+        step += 1
+        point = _point(model, step) | {gone.value: 0}
+        number = _determinant(rest, point) * _determinant(model, point, at, to_zero)
+    return 1 if number > 0 else -1
+
+
+def _point(model: Model, step: int) -> dict[str, int]:
+    """Values, the more different the higher the step."""
+    return {name: (i + 2) ** step + i for i, name in enumerate(model.parameters)}
+
+
+def _determinant(
+    model: Model, point: Mapping[str, int], at: int | None = None, to_zero: bool = False
+) -> fmpz:
+    """The determinant of the coefficients and their derivatives at a point; or its factor of the
+    lowest or the highest power of a value, which is 0 there. The coefficients a + b p are affine in
+    it: that is the determinant of a, the derivatives of a or of b by the others, and b.
+    """
+    values, row = [point[name] for name in model.parameters], coefficients(model)
+    varying = row if at is None or to_zero else [c.derivative(at) for c in row]
+    table = [row, *([c.derivative(i) for c in varying] for i in range(len(values)))]
+    if at is not None:
+        table[at + 1] = [c.derivative(at) for c in row]
+    return fmpz_mat([[c(*values) for c in entries] for entries in table]).det()
+
+
+def _some_minor_reaches(network: Network, whole: Part) -> bool:
     """Return True if a remaining network has functions of that set, or this is unknown."""
-    assert model.network is not None
-    todo = [placed_network(model.network, model.powers)]
-    met = set(todo)
+    model = Model.from_network(network)
+    todo, met = [network], {network}
     while todo:
-        network = todo.pop()
-        for at in range(len(network.elements)):
-            for contracted in (False, True):
-                less = one_less(network, at, contracted)
-                if less is None or less in met or _is_of_one_kind(less):
-                    continue
-                met.add(less)
-                try:
-                    made = Model.from_network(less)
-                    if made.n_states * model.powers.step < model.n_states * made.powers.step:
-                        continue  # the degree in s is smaller
-                    the_full_set = set_of(made)
-                except InputError:
-                    return True
-                if the_full_set is None or (
-                    the_full_set[1].single == whole.single
-                    and _order(the_full_set[1]) >= _order(whole)
-                ):
-                    return True
-                todo.append(less)
+        for _, _, made in _one_less_each(todo.pop()):
+            less = made.network
+            if less is None or less in met or _is_of_one_kind(less):
+                continue
+            met.add(less)
+            if made.n_states * model.powers.step < model.n_states * made.powers.step:
+                continue  # the degree in s is smaller
+            part = _part_of(made)
+            if part is None or (part.single == whole.single and _order(part) >= _order(whole)):
+                return True
+            todo.append(less)
     return False
 
 
 def _is_of_one_kind(network: Network) -> bool:
     """Its functions have no poles but at 0 and infinity."""
     return len({e.power for e in network.elements}) == 1
-
-
-def _degree(model: Model, values: Values) -> int | None:
-    """The sum of signs over all positive values with the function of these; 0 where they are not
-    all known, None where not all are regular.
-    """
-    goal = goal_of(model, values)
-    equivalents = (goal and positive(goal, model, thorough=True)) or ()
-    signs = [orientation(model, e) for e in equivalents]
-    return sum(signs) if all(signs) else None
 
 
 def replaceable(left: AnyModel, right: AnyModel) -> bool:
@@ -168,8 +241,29 @@ def full_set(model: AnyModel) -> tuple[int, Part] | None:
     if the_full_set is None or model.network is None or not isinstance(model, Model):
         return None
     network = placed_network(model.network, model.powers)
-    whole = _has_minor(network.grounded, the_full_set[1]) or covers(model, the_full_set[1], set_of)
-    return the_full_set if whole else None
+    return the_full_set if _is_full(network, the_full_set[1]) else None
+
+
+def _is_full(network: Network, wanted: Part) -> bool:
+    """Return True if the network gives all of the set in which its functions are."""
+    try:
+        return _gives_all(network, wanted)
+    except InputError:  # of a network that remains
+        return False
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _gives_all(network: Network, wanted: Part) -> bool:
+    """Return True if it, or what remains where elements are deleted or contracted, is a part that
+    gives all of a set, or has a degree that is not 0.
+    """
+    form = normal_form(network.grounded)
+    if form and len(form.edges) == 1 and form.edges[0][2] == wanted:
+        return True
+    if len(network.elements) <= 2 * _order(wanted) + len(wanted.single):
+        return bool(degree(network))
+    rest = (made for _, _, made in _one_less_each(network) if _part_of(made) == wanted)
+    return any(made.network is not None and _gives_all(made.network, wanted) for made in rest)
 
 
 def set_of(model: AnyModel) -> tuple[int, Part] | None:
@@ -201,37 +295,3 @@ def _set_of(model: Model, order: int, low: Power, high: Power) -> Part | None:
     count = (bottom[-1] - bottom[0]) // abs(step)
     single = [r for r, is_there in ((low, at_oo == 0), (high, at_zero == -step)) if is_there]
     return Part("S", tuple(single), (((low, high), count),) if count else ())
-
-
-@lru_cache(maxsize=REMEMBERED)
-def _has_minor(network: Network, wanted: Part) -> bool:
-    """Return True if the network, or a minor in series and parallel, is a part that gives all of a
-    set.
-    """
-    port = network.inputs[0]
-    elements = network.elements
-    for count in range(MOST_LEFT_OUT + 1):
-        for left_out in combinations(range(len(elements)), count):
-            for contracted in product((False, True), repeat=count):
-                chosen = dict(zip(left_out, contracted, strict=True))
-                minor = _minor(elements, chosen, port)
-                form = None if minor is None else normal_form(minor)
-                if form and len(form.edges) == 1 and form.edges[0][2] == wanted:
-                    return True
-    return False
-
-
-def _minor(elements: Sequence[Element], left_out: dict[int, bool], port: Port) -> Network | None:
-    """The one-port with elements deleted, or contracted where True; None where there is none."""
-    places = {i: i for e in elements for i in (*e.nodes, 0)} | {port.plus: port.plus}
-    for at, contracted in left_out.items():
-        if contracted:
-            a, b = (places[i] for i in (*elements[at].nodes, 0)[:2])
-            low, high = sorted((a, b))
-            places = {i: low if j == high else j for i, j in places.items()}
-    kept = [move(e, places) for i, e in enumerate(elements) if i not in left_out]
-    other_port = Port(places[port.plus], places[port.minus])
-    try:
-        return Network(tuple(e for e in kept if e is not None), (other_port,), (other_port,))
-    except InputError:
-        return None

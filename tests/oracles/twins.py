@@ -26,23 +26,41 @@ def twin(given, other, draw, starts=STARTS):
     if len(goal) == 0:
         return mine, [1.0] * len(there.parameters)
 
+    for theirs in solutions(there, goal, draw, starts):
+        if respond_alike(given, mine, other, theirs):
+            return mine, theirs
+    return mine, None
+
+
+def signs(network, draw, starts=STARTS):
+    """Signs of the determinants of coefficients and values at all values with the response of
+    random ones that many starts find.
+    """
+    model, found = of_network(network), list[np.ndarray]()
+    goal = _coefficients(model, np.array([draw.uniform(0.5, 2) for _ in model.parameters]))
+    for values in solutions(model, goal, draw, starts):
+        if not any(np.allclose(values, other, rtol=1e-5) for other in found):
+            found.append(np.array(values))
+    return [int(np.sign(np.linalg.det(_jacobian(model, values)))) for values in found]
+
+
+def solutions(model, goal, draw, starts):
+    """Yield positive values with these coefficients, as searches from many starts end in them."""
+
     def residual(logs):
-        return _coefficients(there, _values(logs)) / goal - 1
+        return _coefficients(model, _values(logs)) / goal - 1
 
     def slopes(logs):
-        return _jacobian(there, _values(logs)) / goal[:, None]
+        return _jacobian(model, _values(logs)) / goal[:, None]
 
     for k in range(starts):
         far = SPREADS[k % len(SPREADS)]
-        start = np.array([draw.uniform(-far, far) for _ in there.parameters])
+        start = np.array([draw.uniform(-far, far) for _ in model.parameters])
         found = least_squares(
             residual, start, slopes, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=1000
         )
         if np.max(np.abs(found.fun)) < CLOSE / 100 and np.max(np.abs(found.x)) < FARTHEST:
-            theirs = list(_values(found.x))
-            if respond_alike(given, mine, other, theirs):
-                return mine, theirs
-    return mine, None
+            yield list(_values(found.x))
 
 
 def respond_alike(given, mine, other, theirs):
