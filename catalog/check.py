@@ -1174,21 +1174,13 @@ def whole_parts(m):
 
 
 def full_set(m):
-    """{(node, node): part} of a one-port of two kinds of elements, not in series and parallel, that
-    gives all of K(n, c, z): a part of this set remains where up to three elements vanish or become
-    rigid, or the degree of its map is not 0.
-    """
+    """{(node, node): part} of a one-port of two kinds of elements that gives all of K(n, c, z)."""
     powers = sorted({e.power for e in m.elements})
     if {*m.force} != {*m.sensor} or len(powers) != 2 or m.exponents:
         return None
     bridge = one_port([(powers.index(e.power), e.a, e.b) for e in m.elements], *m.force)
-    numbers, near = numbers_of(bridge), {bridge}
-    for _ in range(3):
-        near |= {rest for whole in near for _, _, rest in one_less(whole)}
-    labels = ([(a, b, ("one", power)) for power, a, b in rest] for rest in near)
-    alike = {(0, 1): ("two", 0, 1, *numbers)}
-    is_whole = any(parts_of(rest, {0, 1}) == alike for rest in labels) or degree(bridge)
-    return {m.force: ("two", *powers, *numbers)} if is_whole else None
+    part = "two", *powers, *numbers_of(bridge)
+    return {m.force: part} if gives_all(bridge) else None
 
 
 # bridges: elements (power of x, node, node) of two kinds, seen between the nodes 0 and 1
@@ -1278,6 +1270,20 @@ def degree(bridge):
                 return None
             total += found * (-1) ** (i + 1 + column + rigid)
     return total
+
+
+@cache
+def gives_all(bridge):
+    """Whether a bridge gives all of its K(n, c, z): it is in series and parallel, or the degree of
+    its map is not 0, or what remains without an element gives all of the same set.
+    """
+    n, c, z = numbers = numbers_of(bridge)
+    labels = [(a, b, ("one", power)) for power, a, b in bridge]
+    if parts_of(labels, {0, 1}) == {(0, 1): ("two", 0, 1, *numbers)}:
+        return True
+    if len(bridge) <= 2 * n + c + z:
+        return bool(degree(bridge))
+    return any(gives_all(rest) for _, _, rest in one_less(bridge) if numbers_of(rest) == numbers)
 
 
 # compartments: outflows that may be moved, trees that hang at one compartment

@@ -255,6 +255,8 @@ def test_witnesses_that_do_not_fit_are_refused(check):
     # bridges of which no part remains that shows it: by the degree of their map
     ("#~1, 1~2, 1~3; F3:2; S3:2", "#~1, 1~2, 2~3; F3; S3", True),
     ("#~1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 1~3; F2:3; S2:3", True),
+    ("j1 1 0, j2 2 0, j3 3 0, k1 1 0, k2 1 2, k3 1 3, k4 1 3, in 3 2, out 3 2",
+     "j1 1 0, j2 2 0, j3 3 0, k1 1 2, k2 2 3, k3 3 0, in 1 0, out 1 0", True),
     ("#~1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 1~3; F2:3; S3:2", False),
     ("#~1, 1~2, 2~3; F3:1; S3:1", "1~2, 2~3; F1; S1", False),
     ("#=1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 2~3; F3; S3", False),
