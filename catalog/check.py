@@ -1014,11 +1014,11 @@ def symbolic(m):
         if m.fixed:
             a[i][i][s] += 1
     one = (0,) * size
-    for port, put in ((m.force, 0), (m.sensor, 1)):
-        for end, sign in zip(port, (1, -1)):
-            if end:
-                i, j = (end - 1, m.nodes) if put == 0 else (m.nodes, end - 1)
-                a[i][j][one] += sign if put == 0 else -sign
+    for force, sensor, sign in zip(m.force, m.sensor, (1, -1)):
+        if force:
+            a[force - 1][m.nodes][one] += sign
+        if sensor:
+            a[m.nodes][sensor - 1][one] -= sign
 
     def det(rows, columns):
         if not rows:
@@ -1174,29 +1174,21 @@ def whole_parts(m):
 
 
 def full_set(m):
-    """{(node, node): part} of a one-port of two kinds of elements, not in series and parallel, that
-    gives all of K(n, c, z): a part of this set remains where up to three elements vanish or become
-    rigid, or the degree of its map is not 0.
-    """
+    """{(node, node): part} of a one-port of two kinds of elements that gives all of K(n, c, z)."""
     powers = sorted({e.power for e in m.elements})
     if {*m.force} != {*m.sensor} or len(powers) != 2 or m.exponents:
         return None
     bridge = one_port([(powers.index(e.power), e.a, e.b) for e in m.elements], *m.force)
-    numbers, near = numbers_of(bridge), {bridge}
-    for _ in range(3):
-        near |= {rest for whole in near for _, _, rest in one_less(whole)}
-    labels = ([(a, b, ("one", power)) for power, a, b in rest] for rest in near)
-    alike = {(0, 1): ("two", 0, 1, *numbers)}
-    is_whole = any(parts_of(rest, {0, 1}) == alike for rest in labels) or degree(bridge)
-    return {m.force: ("two", *powers, *numbers)} if is_whole else None
+    part = "two", *powers, *numbers_of(bridge)
+    return {m.force: part} if gives_all(bridge) else None
 
 
 # bridges: elements (power of x, node, node) of two kinds, seen between the nodes 0 and 1
 
 
 def one_port(bridge, low, high):
-    """What is seen of a bridge between two nodes, which become 0 and 1: no node holds an element
-    apart from both. None if they are one node or not joined.
+    """What is seen of a bridge between two nodes, which become 0 and 1: an element that one held
+    node cuts off from both is not. Nothing if they are one node or not joined.
     """
     kept = bridge = [(p, a, b) for p, a, b in bridge if a != b]
     pairs = [(low, high), *((a, b) for _, a, b in bridge)]
@@ -1278,6 +1270,20 @@ def degree(bridge):
                 return None
             total += found * (-1) ** (i + 1 + column + rigid)
     return total
+
+
+@cache
+def gives_all(bridge):
+    """Whether a bridge gives all of its K(n, c, z): it is in series and parallel, or the degree of
+    its map is not 0, or what remains without an element gives all of the same set.
+    """
+    n, c, z = numbers = numbers_of(bridge)
+    labels = [(a, b, ("one", power)) for power, a, b in bridge]
+    if parts_of(labels, {0, 1}) == {(0, 1): ("two", 0, 1, *numbers)}:
+        return True
+    if len(bridge) <= 2 * n + c + z:
+        return bool(degree(bridge))
+    return any(gives_all(rest) for _, _, rest in one_less(bridge) if numbers_of(rest) == numbers)
 
 
 # compartments: outflows that may be moved, trees that hang at one compartment
@@ -1965,11 +1971,16 @@ FIELDS = {
 }
 
 
+def has_fields(slot, told):
+    """Whether a verdict has the fields of its place; one that is open has no evidence."""
+    fields = {*FIELDS[slot].split(), "certainty", "safety", "evidence"}
+    return fields <= told.keys() | {"evidence"} <= fields | {"empirical"}
+
+
 def unfounded(slot, told, e, pair):
     """What a verdict says that its evidence does not show; "" if nothing."""
     kind = e["kind"]
-    fields = {*FIELDS[slot].split(), "certainty", "safety", "evidence"}
-    if not fields <= told.keys() <= fields | {"empirical"}:
+    if not has_fields(slot, told):
         return "fields are missing or unknown"
     is_more = is_by_algebra(told["certainty"], pair, e)  # no catalogue is built so
     if is_more or not is_certain(told["certainty"], told["safety"], e, pair):
@@ -2028,6 +2039,7 @@ def claim(table, kind, slot, told, pair, where):
         table.add(kind, slot, str(e.get("kind")), found, where)
         return told.get("relation", *shows(e)[:1])
     right = told.get("relation", told.get("inclusion")) in ("undecided", "unknown")
+    right = right and has_fields(slot, told)
     if not right or any(map(told.get, DECIDED)) or not told.get("reason", "-"):
         expect(table, kind, slot, "none", False, where, "a verdict without evidence")
     return "undecided"
@@ -2389,6 +2401,7 @@ def over_positive(table, kind, where, r, pair):
     fits = fits and [told["certainty"], told["safety"]] == given[1:]
     if given[0] == "abandoned":
         fits = (*words, told["certainty"], told["safety"]) == ("undecided", "", "", "", 0)
+    fits = fits and has_fields("positive", told)
     return expect(table, kind, "positive", "verdict", fits, where, "what the finding gives")
 
 

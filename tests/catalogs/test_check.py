@@ -255,6 +255,8 @@ def test_witnesses_that_do_not_fit_are_refused(check):
     # bridges of which no part remains that shows it: by the degree of their map
     ("#~1, 1~2, 1~3; F3:2; S3:2", "#~1, 1~2, 2~3; F3; S3", True),
     ("#~1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 1~3; F2:3; S2:3", True),
+    ("j1 1 0, j2 2 0, j3 3 0, k1 1 0, k2 1 2, k3 1 3, k4 1 3, in 3 2, out 3 2",
+     "j1 1 0, j2 2 0, j3 3 0, k1 1 2, k2 2 3, k3 3 0, in 1 0, out 1 0", True),
     ("#~1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 1~3; F2:3; S3:2", False),
     ("#~1, 1~2, 2~3; F3:1; S3:1", "1~2, 2~3; F1; S1", False),
     ("#=1, 1~2, 2~3; F3:1; S3:1", "#~1, 1~2, 2~3; F3; S3", False),
@@ -410,6 +412,30 @@ def test_places_of_springs_to_the_ground(check, left, right, same):
     e = {"kind": "theorem", "name": "springs to the ground"}
     pair = check.pair_of(check.network(left), check.network(right))
     assert check.evidence(pair, e).status == (check.CHECKED if same else check.SEARCH)
+
+
+def random_machine(check, draw):
+    """Three masses, springs between them and to the ground, ports anywhere."""
+    size = 3
+    ends = {tuple(sorted(draw.sample(range(size + 1), 2))) for _ in range(size + 1)}
+    parts = [check.element("m", f"m{i}", i, 0) for i in range(1, size + 1)]
+    parts += [check.element("k", f"k{a}{b}", a, b) for a, b in sorted(ends)]
+    ports = [draw.choice([(1, 0), (2, 0), (1, 2), (2, 1)]) for _ in range(2)]
+    return check.model(f"{sorted(ends)} {ports}", parts, *ports, 2)
+
+
+@pytest.mark.parametrize("size", [16, pytest.param(150, marks=pytest.mark.full)])
+def test_machines_that_share_a_form_are_told_apart_by_nothing(check, size):
+    """By no degree, rank, constant or dependence: what the theorems join is the same."""
+    draw, first, joined = random.Random(1), {}, 0
+    for _ in range(size):
+        m = random_machine(check, draw)
+        for name in check.ON_NETWORKS:
+            for form in check.functions_of(m, name):
+                other = first.setdefault((name, repr(form)), m)
+                joined += other is not m
+                assert not check.told_apart(check.profile(m), check.profile(other), ("H",))
+    assert joined
 
 
 @pytest.mark.thin(1)

@@ -101,6 +101,12 @@ def turned_round(lines):
     e.update({k: not v for k, v in e.items() if k.endswith("left_given")})
 
 
+def with_a_note(lines):
+    """A field that an open verdict does not have."""
+    r = next(r for r in lines if "positive" in r and not r["positive"].get("evidence"))
+    r["positive"]["note"] = "it is distinguishable"
+
+
 def evidence_of_a_neighbour(lines):
     """Evidence, verdict and finding of another pair of the same class."""
     r, other = pair_at(lines, 10, 13), pair_at(lines, 10, 12)
@@ -111,7 +117,7 @@ def evidence_of_a_neighbour(lines):
 
 @pytest.mark.parametrize("forge", [
     as_verdict_over_positive, as_finding, as_complex, as_undecided, with_a_condition, turned_round,
-    evidence_of_a_neighbour,
+    evidence_of_a_neighbour, with_a_note,
     lambda lines: lines[1].update(note="it is globally identifiable"),
     lambda lines: lines[0].update(schema=99),
     lambda lines: lines[1].update(network="#~1, 1=2; F-1; S2"),
@@ -140,6 +146,23 @@ def with_no_verdict(lines):
 ])  # fmt: skip
 def test_a_forged_file_of_chains_is_refused(check, tmp_path, forge):
     assert is_refused(check, tmp_path, "chains-3-undamped", forge)
+
+
+OPEN = {"inclusion": "unknown", "certainty": "", "safety": 0, "evidence": {}, "reason": "too large"}
+
+
+@pytest.mark.parametrize("told", [
+    OPEN | {"note": "they are equal"}, OPEN | {"inclusion": "neither"}, OPEN | {"reason": ""},
+    *({k: v for k, v in OPEN.items() if k != key} for key in OPEN if key != "evidence"),
+])  # fmt: skip
+def test_an_open_inclusion_has_its_fields(check, told):
+    def wrong(told):
+        table = check.Table()
+        check.claim(table, "chains", "image", told, None, "")
+        return table.wrong
+
+    assert not wrong(OPEN)
+    assert wrong(told)
 
 
 @pytest.mark.parametrize("change", [{}, {"damped": False}, {"n_masses": 3}])
