@@ -74,6 +74,7 @@ from disting.network.simplest import same_but_for_gears, simplest
 
 REMEMBERED = 4096  # networks: each is asked about in many pairs
 MOST_ELEMENTS = 14  # of a one-port whose degree is computed: what remains of it doubles with each
+MOST_LEFT_OUT = 3  # elements, of what remains
 TWO = 2  # kinds of elements
 
 
@@ -179,7 +180,8 @@ def _gives_all(network: Network, wanted: Part) -> bool:
     form = normal_form(network.grounded)
     if form and len(form.edges) == 1 and form.edges[0][2] == wanted:
         return True
-    if len(network.elements) <= 2 * sum(n for _, n in wanted.terms) + len(wanted.single):
+    too_many = len(network.elements) - 2 * sum(n for _, n in wanted.terms) - len(wanted.single)
+    if not 0 < too_many <= MOST_LEFT_OUT:
         return bool(degree(network))
     ways = product(range(len(network.elements)), (False, True))
     rest = filter(None, (one_less(network, at, contracted) for at, contracted in ways))
