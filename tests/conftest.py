@@ -28,7 +28,8 @@ DEAR_DOCUMENTS = {
     "disting.verdict.decisions.Decisions",
     "disting.verdict.next_experiments.next_experiments",
 }
-FEWER, FEWEST = 5, 5  # examples of a law by default: a fifth of all, but not less than five
+# examples of a law: a fifth of all by default, half of them as `full`, but not less than five
+FEWER, FEWEST, HALF = 5, 5, 2
 # without windows, where it is there: the same engine at four fifths of the work
 PROGRAMS = "chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"
 CHROMIUM = next(filter(None, map(shutil.which, PROGRAMS)), None)
@@ -109,33 +110,43 @@ def pytest_collect_file(file_path):
 
 @pytest.hookimpl(tryfirst=True)  # before -m chooses
 def pytest_collection_modifyitems(items, config):
-    """Split tests between the default ones and the `full` ones.
+    """Split tests between the default ones, the `full` ones and the `slow` ones.
 
     `thin(n)`: n cases of a test, spread over all of them, are default tests, the others `full`.
-    Cases with a mark of their own do not count. A law is both: a default test with few examples,
-    a `full` one with all of them.
+    `sampled(n)`: n of its `full` cases stay `full`, the others are `slow`. Cases with a mark of
+    their own do not count. A law is both: a default test with few examples, a `full` one with
+    half of them, or with all where `slow` tests run too.
     """
-    cases = defaultdict(list)
     for item in items:
         if item.name in DEAR_DOCUMENTS:
             item.add_marker("full")
-        marks = {mark.name for mark in item.iter_markers()}
-        if "thin" in marks and not marks & {"full", *DEARER}:
+    put_off(items, "thin", "full", {"full", *DEARER})
+    put_off(
+        [item for item in items if item.get_closest_marker("full")], "sampled", "slow", {*DEARER}
+    )
+    out = left_out(config)
+    laws = [item for item in items if is_hypothesis_test(getattr(item, "obj", None))]
+    for item in [] if "full" in out else laws:
+        item.add_marker("full")
+    share = FEWER if "full" in out else HALF if "slow" in out else 1
+    for law in {item.obj for item in laws}:
+        all_of_them = law._hypothesis_internal_use_settings
+        count = min(all_of_them.max_examples, max(FEWEST, all_of_them.max_examples // share))
+        law._hypothesis_internal_use_settings = settings(all_of_them, max_examples=count)
+
+
+def put_off(items, marked, later, without):
+    """Mark those cases of a test `later` that its mark `marked(n)` does not keep."""
+    cases = defaultdict(list)
+    for item in items:
+        if item.get_closest_marker(marked) and not without & {m.name for m in item.iter_markers()}:
             cases[item.path, item.cls, item.originalname].append(item)
     for of_one in cases.values():
-        (count,) = of_one[0].get_closest_marker("thin").args
+        (count,) = of_one[0].get_closest_marker(marked).args
         kept = {k * len(of_one) // count for k in range(count)}
         for k, item in enumerate(of_one):
             if k not in kept:
-                item.add_marker("full")
-    few = "full" in left_out(config)
-    laws = [item for item in items if is_hypothesis_test(getattr(item, "obj", None))]
-    for item in [] if few else laws:
-        item.add_marker("full")
-    for law in {item.obj for item in laws} if few else ():
-        all_of_them = law._hypothesis_internal_use_settings
-        count = min(all_of_them.max_examples, max(FEWEST, all_of_them.max_examples // FEWER))
-        law._hypothesis_internal_use_settings = settings(all_of_them, max_examples=count)
+                item.add_marker(later)
 
 
 SECTIONS = {"oracle": "compared with independent programs", "attack": "attacked"}

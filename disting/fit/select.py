@@ -128,6 +128,7 @@ def select(
     if band is not None:
         train, test = train.masked(*band), test and test.masked(*band)
         further = [extra.masked(*band) for extra in further]
+    terms, method = _terms(thresholds, rule, controller), _method(optimiser)
     train, test, further = check(train, test, further, candidates, lines)
     _check_names(candidates, further, (*(fix or {}), *(bound or {})))
     candidates, further, zero = informative(candidates, further, home)
@@ -143,8 +144,7 @@ def select(
     same_as = _find_represented(candidates, search, work.engine) if prune else {}
     fitted = [c for c in candidates if c not in same_as]
     likely = weighing.by_scatter and case is None and case_weights is None
-    fits = _fits(fitted, search, judging, likely, _method(optimiser), work)
-    terms = _terms(thresholds, rule, controller)
+    fits = _fits(fitted, search, judging, likely, method, work)
     return _selection(fits, terms, candidates, same_as, tuple(zero), work)
 
 

@@ -169,13 +169,14 @@ def test_a_second_measurement_tests_the_fit_and_what_comes_after_it_is_on_the_pa
     tab.fill("#fix", "Td=late")
     tab.click("#fit button.main")
     is_seen(tab, "Known values: write them like m1=0.02, Td=0.0003, not Td=late.")
-    for number, fixed in ((1, "Td=0.0003"), (2, "")):
-        tab.fill("#fix", fixed)
-        tab.click("#fit button.main")
-        is_seen(tab, f"Answer of fit {number}: bench.csv")
-    commands = [found["command"] for found in own.call("fits", {})[1]["fits"]]
-    assert all("--test data/again.csv" in command for command in commands)
-    assert ["--fix Td=0.0003" in command for command in commands] == [False, True]
+    tab.fill("#fix", "Td=0.0003")
+    tab.click("#fit button.main")
+    is_seen(tab, "Answer of fit 1: bench.csv")
+    (command,) = (found["command"] for found in own.call("fits", {})[1]["fits"])
+    assert "--test data/again.csv" in command and "--fix Td=0.0003" in command
+    shutil.copytree(own.folder / "fits" / "1", own.folder / "fits" / "2")
+    tab.reload()
+    is_seen(tab, "Answer of fit 2: bench.csv")
     tab.click("#answer button:has-text('What to measure next')")
     is_seen(tab, "no further measurement is needed to distinguish structures")
     tab.click("#answer button:has-text('Plan: how much more')")
@@ -227,7 +228,7 @@ def test_the_advised_measurement_is_added_with_its_place(own, visit):
     assert tab.locator(".masses").is_visible()
 
 
-def test_an_engineer_by_keyboard(own, visit):
+def test_an_engineer_by_keyboard_stops_a_fit_that_a_closed_page_finds_again(own, visit):
     tab = visit(own)
     with tab.expect_file_chooser() as chooser:  # before the first key: the browser needs a moment
         tab.keyboard.press("Tab")
@@ -241,13 +242,21 @@ def test_an_engineer_by_keyboard(own, visit):
     tab.keyboard.type("vel")
     tab.keyboard.press("Tab")
     tab.wait_for_selector(".field.assumed", state="detached")
-    for n in (2, 3, 4):
-        tab.focus(f".masses input[value='{n}']")
-        tab.keyboard.press("Space")
+    tab.focus(".masses input[value='2']")
+    tab.keyboard.press("Space")
+    assert not tab.is_checked(".masses input[value='2']")
     tab.focus("#fit button.main")
     tab.keyboard.press("Enter")
-    tab.wait_for_selector("#answer-title")
-    assert "none of the candidates explains this data" in tab.locator("#answer").inner_text()
+    until(
+        tab, "/Candidates fitted: \\d+ of \\d+/.test(document.querySelector('.progress').innerText)"
+    )
+    tab.reload()
+    tab.wait_for_selector(".progress button:visible")
+    tab.focus(".progress button:visible")
+    tab.keyboard.press("Enter")
+    is_seen(tab, "Stopped.")
+    assert tab.locator("#fit button.main").is_enabled()
+    assert own.call("fits", {})[1] == {"fits": []}
 
 
 def test_a_chemist_pastes_a_spectrum(own, visit):
@@ -453,22 +462,6 @@ def test_the_page_of_a_fit_is_shown_without_an_empty_tail(own, visit):
     until(tab, f"{frame}.clientHeight < {tall} / 2")
     content = tab.evaluate(f"{frame}.contentDocument.documentElement.offsetHeight")
     assert 0 <= tab.evaluate(f"{frame}.clientHeight") - content <= 4
-
-
-def test_a_fit_is_stopped_and_a_closed_page_finds_its_fit_again(own, visit):
-    tab = visit(own)
-    drop(tab, "bench.csv", bench_csv())
-    tab.wait_for_selector("#diagram circle")
-    tab.click("#fit button.main")
-    until(
-        tab, "/Candidates fitted: \\d+ of \\d+/.test(document.querySelector('.progress').innerText)"
-    )
-    tab.reload()
-    tab.wait_for_selector(".progress button:visible")
-    tab.click("text=Stop")
-    is_seen(tab, "Stopped.")
-    assert tab.locator("#fit button.main").is_enabled()
-    assert own.call("fits", {})[1] == {"fits": []}
 
 
 def test_what_cannot_be_read_is_said_and_the_way_back_is_there(own, visit):

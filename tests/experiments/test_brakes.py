@@ -65,6 +65,7 @@ def random_pairs(count, seed):
 
 
 @pytest.mark.full
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("case", list(random_pairs(12, "brakes")), ids=str)
 def test_random_brakes(case):
     agrees_with_groebner_bases(*case)

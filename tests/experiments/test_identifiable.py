@@ -72,6 +72,7 @@ def test_there_are_468_cases():
 
 
 @pytest.mark.full
+@pytest.mark.sampled(21)
 @pytest.mark.parametrize(("chain", "kind", "i"), [*TWO[::3], *THREE[::24]])
 def test_ranks(chain, kind, i):
     check_ranks(chain, kind, i)

@@ -38,6 +38,14 @@ def selection():
     return select(planted(1), figure_1((1, 2)), test=planted(2))
 
 
+@pytest.mark.parametrize("word", [{"controller": "P=2,loop=round"}, {"rule": "none"}])
+def test_a_word_that_cannot_be_is_refused_before_anything_is_fitted(word):
+    told = []
+    with pytest.raises(InputError, match=r"loop|rule"):
+        select(planted(1), figure_1((1,)), progress=lambda *what: told.append(what), **word)
+    assert told == []
+
+
 @pytest.mark.full
 def test_what_only_rounding_makes_cheaper_does_not_come_first(selection):
     small, large = sorted(selection.candidates[:2], key=lambda c: c.n_parameters)

@@ -96,6 +96,7 @@ def response(text, values, at):
 
 
 @pytest.mark.full
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize(("one", "other", "count", "by_roots"), PAIRS)
 def test_both_give_the_same(one, other, count, by_roots):
     """At numbers, in SymPy, to 30 digits."""

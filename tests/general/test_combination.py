@@ -45,6 +45,7 @@ def test_no_search_finds_what_is_excluded(pair):
 
 
 @pytest.mark.full
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("text", [STAR, LOOP, "R1-p(R2,C1-p(R3,L1))", "1>2, 2>1, 2>0; in 1; out 2"])
 def test_nothing_excludes_its_own_values(text):
     model, draw = of_network(network_of(text)), random.Random(3)

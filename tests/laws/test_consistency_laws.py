@@ -79,6 +79,7 @@ def test_indistinguishability_is_transitive(n_masses, damped, view):
 
 
 @pytest.mark.full
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("model", range(1, 12))
 def test_indistinguishability_is_transitive_among_ground_dampers(model):
     chain = Family(3, damped=True)[model]

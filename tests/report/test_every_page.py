@@ -26,12 +26,13 @@ KINDS, LARGEST = kinds(3), kinds(5)
 # axe takes seconds: by default it looks at one page of each template
 JUDGED = (
     "start, a machine described", "catalogue, a pair", "list of models",
-    "family of networks", "family of networks, a model", "model", "sizes",
+    "family of networks, a model", "model", "sizes",
     "dampers, a pair", "next", "motion", "motion, presented", "guide, glossary", "guide, commands",
     "guide, notebook-bench-commissioned", "fit",
 )  # fmt: skip
 WITHOUT_SITE = ("alone",)  # folders of pages that lie anywhere
 TALL = 12_000  # pixels: what is longer is folded or on several pages
+TALL_GUIDE = 8_000  # a page of the guide that is longer is split by subject
 SETTLED = "() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -127,6 +128,13 @@ def test_no_page_is_endless(tab, site: Path) -> None:  # type: ignore[no-untyped
     written = [page for page in site.rglob("*.html") if page.parent.name not in SHIPPED]
     pages = sorted(written, key=lambda page: page.stat().st_size)[-6:]
     assert {name: high for name, high in heights(tab, pages).items() if high > TALL} == {}
+
+
+def test_no_page_of_the_guide_is_higher_than_a_reader_scrolls(tab, site: Path) -> None:  # type: ignore[no-untyped-def]
+    pages = sorted(site.glob("guide/*.html"), key=lambda page: -page.stat().st_size)
+    assert len(pages) > 50
+    found = heights(tab, pages[:15])
+    assert {name: high for name, high in found.items() if high > TALL_GUIDE} == {}
 
 
 @pytest.mark.slow

@@ -39,7 +39,6 @@ from tests.report.guide_blocks import FOLDER, ROOT, TEXTS, blocks, fences
 from tests.report.outline import Outline
 
 PLACEHOLDER = re.compile(r"[\[\]|]|\.\.|\b[A-Z]+\b")
-HIGHEST = 8000  # pixels of a page, 1280 wide: a longer one is split by subject
 MARKUP = """<script>alert(1)</script> <b onclick="x()">bold</b> [a](javascript:alert(1)) ![i](http://a.b/c.png) {{ 7*7 }} &lt;"""
 
 
@@ -51,12 +50,6 @@ def parts() -> tuple[Part, ...]:
 @cache
 def written() -> dict[str, str]:
     return {name: content.decode() for name, content in guide_files(parts())}
-
-
-def notebooks() -> dict[str, str]:
-    """Texts of the shipped notebooks by name."""
-    shipped = ROOT / "reports" / "notebooks"
-    return {path.stem: path.read_text("utf-8") for path in sorted(shipped.glob("*.ipynb"))}
 
 
 def shown() -> list[tuple[str, str, bool]]:
@@ -225,19 +218,6 @@ def test_equal_headings_have_anchors_of_their_own_and_a_page_has_a_title() -> No
 
 
 @pytest.mark.full
-def test_no_page_is_higher_than_a_reader_scrolls(tab, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
-    (tmp_path / "guide").mkdir()
-    for name, content in guide_files(guide(parser(), notebooks())):
-        (tmp_path / name).write_bytes(content)
-    found, pages = {}, list(tmp_path.glob("guide/*.html"))
-    assert len(pages) > 50
-    for page in sorted(pages, key=lambda page: -page.stat().st_size)[:15]:
-        tab.goto(page.as_uri())
-        found[page.stem] = tab.evaluate("document.documentElement.scrollHeight")
-    assert {name: high for name, high in found.items() if high > HIGHEST} == {}
-
-
-@pytest.mark.full
 def test_every_command_shown_is_accepted() -> None:
     assert len(shown()) > 40
     known = parser()
@@ -399,7 +379,8 @@ def test_every_address_that_the_search_knows_is_there(site: Path) -> None:
 
 @pytest.mark.full
 def test_executed_notebooks_are_pages_with_their_outputs(tmp_path: Path) -> None:
-    shipped = notebooks()
+    folder = ROOT / "reports" / "notebooks"
+    shipped = {path.stem: path.read_text("utf-8") for path in sorted(folder.glob("*.ipynb"))}
     found = {part.title: part for part in guide(notebooks=shipped)}["Notebooks"]
     assert [page.name for page in found.pages] == [f"notebook-{name}" for name in shipped]
     for page, text in zip(found.pages, shipped.values(), strict=True):

@@ -205,7 +205,11 @@ def _laid_out(width: float, height: float, draw: Callable[["Figure"], None]) -> 
 
     figure = Figure(figsize=(width, height))
     draw(figure)
-    figure.draw_without_rendering()
+    for axis in (axis for panel in figure.axes for axis in (panel.xaxis, panel.yaxis)):
+        if not axis.get_label_text():  # else its place is found anew from all ticks, each time
+            axis.set_label_coords(0, 0)
+    if figure.axes and (engine := figure.get_layout_engine()):
+        engine.execute(figure)  # alone: nothing has to be drawn for it
     figure.set_layout_engine("none")  # the layout found once serves all files
     return figure
 
