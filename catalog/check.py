@@ -1407,11 +1407,16 @@ def joined_nodes(springs, nodes):
     return [[x for x in nodes if of[x] == number_] for number_ in sorted({*of.values()})]
 
 
-def is_held_tree(m, springs):
-    """Whether these join the masses as a tree, and one of them is at the ground."""
+def is_held(springs):
+    """Whether some are at the ground."""
+    return not all(e.a * e.b for e in springs)
+
+
+def is_tree(m, springs):
+    """Whether these join the masses as a tree, and at most one of them is at the ground."""
     grounded = sum(not e.a * e.b for e in springs)
     is_whole = len(joined_nodes(springs, range(1, m.nodes + 1))) == 1
-    return is_whole and len(springs) == m.nodes and grounded == 1
+    return is_whole and len(springs) == m.nodes - 1 + grounded and grounded <= 1
 
 
 def part_at(m, x, springs, nodes, s):
@@ -1426,10 +1431,10 @@ def part_at(m, x, springs, nodes, s):
 
 def zeros_are_of_parts(m, x, springs):
     """Whether the zeros are the poles of some of the parts that are left where a mass is held or,
-    in a tree, a spring is cut: compared at random places.
+    in a held tree, a spring is cut: compared at random places.
     """
     ways = [(springs, held) for held in range(1, m.nodes + 1)]
-    if is_held_tree(m, springs):
+    if is_tree(m, springs) and is_held(springs):
         ways += [([e for e in springs if e is not cut], 0) for cut in springs if cut.a * cut.b]
     spots = [1 + number(f"{m.text} s{i}") % (x.p - 1) for i in range(3)]
     first = next(i for i, c in enumerate(x.num) if c)
@@ -1448,19 +1453,24 @@ def zeros_are_of_parts(m, x, springs):
 
 @cache
 def interlaced(m):
-    """(number of masses, powers and sign of the numerator) of an undamped machine that gives all
-    functions whose zeros lie between neighbouring poles, no two between the same; None of others.
-    A tree with one spring to the ground, or a machine that is one without some of its springs.
+    """(number of masses, whether they are held, powers of the denominator at zero, powers and sign
+    of the numerator) of an undamped machine that gives all functions whose zeros lie between
+    neighbouring poles, no two between the same, 0 being a pole of a free one; None of others. A
+    tree with at most one spring to the ground, or a machine that is one without some springs.
     """
     masses, springs = ([e for e in m.elements if e.kind == kind] for kind in "mk")
-    x = profile(m)
-    if x.degrees[1] != 2 * m.nodes or not x.den[0] or not zeros_are_of_parts(m, x, springs):
+    x, held = profile(m), is_held(springs)
+    at_zero = next(i for i, c in enumerate(x.den) if c)
+    if x.degrees[1] - at_zero != 2 * (m.nodes - (not held)):
+        return None
+    if not zeros_are_of_parts(m, x, springs):
         return None
     num = symbolic(m)[0]
-    found = m.nodes, sorted(num), {v > 0 for v in num[min(num)].values()}
-    if len(found[2]) > 1 or is_held_tree(m, springs):
-        return found if len(found[2]) == 1 else None
-    trees = (kept for kept in combinations(springs, m.nodes) if is_held_tree(m, kept))
+    found = m.nodes, held, at_zero, sorted(num), {v > 0 for v in num[min(num)].values()}
+    if len(found[-1]) > 1 or is_tree(m, springs):
+        return found if len(found[-1]) == 1 else None
+    trees = combinations(springs, m.nodes - (not held))
+    trees = (kept for kept in trees if is_tree(m, kept) and is_held(kept) == held)
     trees = (model(m.text, (*masses, *kept), m.force, m.sensor, m.order) for kept in trees)
     return found if any(interlaced(tree) == found for tree in trees) else None
 

@@ -175,7 +175,7 @@ def orientation(model: Model, at: Equivalent) -> int:
     modulus = fmpq_poly(list(at.polynomial))
     values = [fmpq_poly([fmpq(x.numerator, x.denominator) for x in c]) for c in at.coordinates]
     total = fmpq_poly([0])
-    for powers, number in jacobian(model).to_dict().items():
+    for powers, number in _jacobian(model).to_dict().items():
         term = fmpq_poly([int(number)])
         for x, e in zip(values, powers, strict=True):
             term = term * x ** int(e) % modulus
@@ -184,17 +184,9 @@ def orientation(model: Model, at: Equivalent) -> int:
 
 
 @lru_cache(maxsize=REMEMBERED)
-def jacobian(model: Model) -> fmpz_mpoly:
-    """The determinant of the matrix of the n + 1 coefficients that are not always zero and their
-    derivatives.
-    """
+def _jacobian(model: Model) -> fmpz_mpoly:
     context = fmpz_mpoly_ctx.get(model.parameters, Ordering.lex)
-    row = coefficients(model)
+    row = [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]
     derivatives = [[c.derivative(i) for c in row] for i in range(len(model.parameters))]
     polynomials = subdeterminants([row, *derivatives], {0: context.constant(1)})
     return polynomials.get((1 << len(row)) - 1, context.constant(0))
-
-
-def coefficients(model: Model) -> list[fmpz_mpoly]:
-    """Those that are not always zero."""
-    return [c for c in (*model.numerator, *model.denominator) if not c.is_zero()]

@@ -1,21 +1,22 @@
 """Undamped machines whose force and sensor are apart: what poles and zeros they can have.
 
-Let N masses be joined by springs as a tree, with one more spring to the ground; x = s^2. Then G = n
-x^j W(x)/D(x), D = (x + a_1) .. (x + a_N) with 0 < a_1 < a_2 < .. for generic values. Let the zeros
-of W be the poles of some of the parts into which the machine falls (H) when one mass is held, or
-(C) when one spring between masses is cut, each once; a pole at 0, of a part that is free then, left
-out.
+Let N masses be joined by springs as a tree, with one more spring to the ground, or with none: it is
+held or free; x = s^2. Then G = n x^j W(x)/D(x), D = (x + a_1) .. (x + a_N) with 0 < a_1 < a_2 < ..
+for generic values, but a_1 = 0 if it is free. Let the zeros of W be the poles of some of the parts
+into which the machine falls (H) when one mass is held, or (C) when it is held and one spring
+between masses is cut, each once; a pole at 0, of a part that is free then, left out.
 
-THEOREM. For generic values n can have any value of its sign, the a any positive ones, and the zeros
--w of W any for which each w is between two neighbours a_i and a_(i+1), no two between the same. So
-two such machines with the same N, j, degree of W and sign of n give the same functions, special
-ones aside.
+THEOREM. For generic values n can have any value of its sign, the other a any positive ones, and the
+zeros -w of W any for which each w is between two neighbours a_i and a_(i+1), no two between the
+same. So two such machines, both held or both free, with the same N, j, degree of W and sign of n
+give the same functions, special ones aside.
 Proof. (H) Seen at the mass v the dynamic stiffness is Z = m x + c + sum r_i x/(x + b_i), where b_1
 < .. < b_(N-1) are the poles of the parts and m, c, r_i > 0; its zeros are the -a_i. So a_i < b_i <
 a_(i+1), and all such a, b, each with any factor, come from one Z (partial fractions). The terms may
 be given to the branches at v in any way by their numbers of masses, c to the branch with the spring
 to the ground, or to v if it is there: each branch gives any such share (the theorem on trees in the
-guide). So any of the b are the poles of the parts in question.
+guide). So any of the b are the poles of the parts in question. If the machine is free, c = 0 and so
+a_1 = 0, and the rest is the same.
 (C) Let k be the spring, h(x) the compliance between its ends when it is cut, a sum of r_i/(x + b_i)
 with r_i > 0, b_1 = 0 for the free part, b_2, .. the other poles of both parts. D is prod (x + b_i)
 (1 + k h) up to a factor, so b_i < a_i < b_(i+1), and all such a, b come from one k h (partial
@@ -26,10 +27,10 @@ In both cases the w are any of the b between the a. Values times a number t leav
 are and make n/t of n.
 
 With more springs, wherever they are: let the zeros of such a machine be poles of parts that are
-left when one mass is held, and let a tree of the theorem with the same N, j, degree of W and sign
-of n remain when springs are left out.
+left when one mass is held, and let a tree of the theorem, held or free as the machine is, with the
+same N, j, degree of W and sign of n remain when springs are left out.
 THEOREM. It gives the same functions as this tree.
-Proof. Holding one mass is one condition on a definite pencil, so a_i <= b_i <= a_(i+1) as before
+Proof. Holding one mass is one condition on a symmetric pencil, so a_i <= b_i <= a_(i+1) as before
 (Cauchy), and no zero is a pole: each w is between two neighbours, no two between the same, so it
 gives no others. The tree gives all of them: at generic values p the derivatives of the coefficients
 have full rank. They depend smoothly on p and on the values e >= 0 of the other springs, and at
@@ -62,9 +63,13 @@ Ring = dict[str, fmpz_mpoly]
 
 @dataclass(frozen=True, slots=True)
 class MachineType:
-    """Number of masses, which powers of s are in the numerator, and its sign."""
+    """Number of masses, held by springs to the ground or not, the power of s that divides the
+    denominator, which powers are in the numerator, and its sign.
+    """
 
     masses: int
+    is_held: bool
+    at_zero: int
     numerator: tuple[bool, ...]
     sign: int
 
@@ -129,22 +134,23 @@ def machine_type(model: AnyModel) -> MachineType | None:
     """
     if not isinstance(model, Model) or model.network is None or model.powers.weights:
         return None
-    network, other_parts = model.network, tuple(map(bool, model.numerator_terms))
-    masses = len(network.nodes)
+    network, there = model.network, tuple(map(bool, model.numerator_terms))
+    masses, is_held = len(network.nodes), _is_held(network)
+    at_zero = next(i for i, terms in enumerate(model.denominator_terms) if terms)
     if (
         not is_undamped(network)
-        or model.degrees[1] != 2 * masses
-        or not model.denominator[0]
+        or model.degrees[1] - at_zero != 2 * (masses - (not is_held))
         or not _has_zeros_of_parts(model, network)
     ):
         return None
-    first = other_parts.index(True)
+    first = there.index(True)
     signs = {number > 0 for _, number in model.numerator_terms[first]}
     if len(signs) > 1:
         return None
-    found = MachineType(masses, other_parts, 1 if signs.pop() else -1)
-    trees = [*_trees_within(network)] if not is_held_tree(network) else []
-    return found if is_held_tree(network) or found in map(machine_type, trees) else None
+    found = MachineType(masses, is_held, at_zero, there, 1 if signs.pop() else -1)
+    if is_tree(network) or found in map(machine_type, _trees_within(network)):
+        return found
+    return None
 
 
 def _has_zeros_of_parts(model: Model, network: Network) -> bool:
@@ -163,31 +169,35 @@ def _has_zeros_of_parts(model: Model, network: Network) -> bool:
 
 
 def _trees_within(network: Network) -> Iterator[Model]:
-    """Yield what is a held tree when springs are left out."""
+    """Yield what is a tree, held by one spring or free, when springs are left out."""
     springs = [e for e in network.elements if e.letter == "k"]
     masses = [e for e in network.elements if e.letter == "m"]
-    for kept in combinations(springs, len(masses)):
+    for kept in combinations(springs, len(masses) - (not _is_held(network))):
         chosen = tuple(e for e in network.elements if e in masses or e in kept)
         try:
             tree = Network(chosen, network.inputs, network.outputs, network.order)
         except InputError:
             continue
-        if is_held_tree(tree):
+        if is_tree(tree) and len(tree.elements) < len(network.elements):
             yield Model.from_network(tree)
 
 
-def is_held_tree(network: Network) -> bool:
-    """Return True if it is made of masses, springs that connect them as a tree, and one to the
-    ground.
+def is_tree(network: Network) -> bool:
+    """Return True if it is made of masses, springs that connect them as a tree, and at most one to
+    the ground.
     """
     nodes = network.nodes
     springs = [e for e in network.elements if e.letter == "k"]
     joints = [e for e in springs if 0 not in _ends(e)]
     return (
         is_undamped(network)
-        and len(springs) == len(nodes) == len(joints) + 1
+        and len(springs) <= len(nodes) == len(joints) + 1
         and len(set(parts(nodes, map(_ends, joints)).values())) == 1
     )
+
+
+def _is_held(network: Network) -> bool:
+    return any(0 in _ends(e) for e in network.elements if e.letter == "k")
 
 
 def _ends(element: Element) -> tuple[int, int]:
@@ -199,7 +209,8 @@ def _choices(network: Network, ring: Ring) -> Iterator[tuple[fmpz_mpoly, ...]]:
     """Yield the polynomials of all choices of parts that are left where a mass is held or a spring
     between masses is cut.
     """
-    inner = [k for k in network.elements if is_held_tree(network) and 0 not in _ends(k)]
+    may_be_cut = is_tree(network) and _is_held(network)
+    inner = [k for k in network.elements if may_be_cut and 0 not in _ends(k)]
     cut = [[e for e in network.elements if e is not k] for k in inner]
     ways = [*((network.elements, i) for i in network.nodes), *((rest, 0) for rest in cut)]
     for elements, held in ways:

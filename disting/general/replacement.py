@@ -16,190 +16,110 @@ derivatives by p have full rank at the p of F_0. So for small e > 0 some p near 
 (implicit function theorem).
 
 Where nothing smaller remains that gives as much, as of bridges with as many elements as K(n, c, z)
-has coordinates, the degree of the map decides.
+has coordinates, the degree of the map decides. Let A and B be the kinds of elements, x the power of
+s in B over that in A, and an element be seen if its value matters.
 
-THEOREM. Let N be a one-port of d = 2 n + c + z elements whose generic functions are in K(n, c, z),
-and let no network that remains when elements are deleted or contracted have generic functions in
-K(m, c, z) with m >= n. Then its map into K has a degree, the sum over the values of any function at
-which all are regular of the signs of the determinants there. If it is not 0, N gives all of K.
+LEMMA. A function of K(n, c, z) takes at least n + c elements A and n + z elements B that are seen.
+Proof. With A and B diagonal, F is a sum of v^2/(alpha + x beta) with alpha, beta >= 0: n terms have
+both, the constant has alpha alone, the pole at 0 beta alone. So these are least ranks of A and B.
+
+Let N have d = 2 n + c + z elements, all seen, and generic functions in K = K(n, c, z). So n + c of
+them are A and n + z are B, both without loops, and there are n + c + z nodes beside the ground.
+THEOREM. The map of N into K has a degree, the sum over the values of any function at which all are
+regular of the signs of the determinants there. If it is not 0, N gives all of K.
 Proof. K is connected and oriented: the k and 0 < a_1 < a_2 < .. are coordinates. The values U for
 which N has order n are an open set of (0, oo)^d, and the map from U to K is proper: of values whose
 functions converge to F in K let those of each element converge in [0, oo] for a part of them. By
 the theorem of `fibre_lists` F is the function of the network in which elements that tend to 0 are
-deleted and those that tend to oo contracted. Its functions are in K(m, c', z') with m at most that
-of generic ones; c' and z' are those of all its values: they are 0 where elements of the one kind,
-or of the other one, alone join the ends of the port. So F is none of them, unless no element tends
-to 0 or oo: the limit is in U. A proper map between oriented manifolds of one dimension, into a
+deleted and those that tend to oo contracted. If there are any, it has too few by the lemma. So the
+limit is in (0, oo)^d, and in U. A proper map between oriented manifolds of one dimension, into a
 connected one, has a degree, which is 0 if some function has no values. The coefficients are
 coordinates of K up to a common factor of one sign, so that the determinant of them and their
-derivatives has the sign of the map everywhere, or everywhere its opposite. Networks that remain are
-examined while their degree (the larger one of numerator and denominator) is that of N: those of
-smaller degree have no functions in K(m, c, z), m >= n, nor has what remains of them, as limits have
-no larger degree.
+derivatives has the sign of the map everywhere, or everywhere its opposite.
 
 Let K' be K(n - 1, 1, z) if c = 0, where a_n tends to oo and k_n/a_n does not, and K(n, 0, z) if
 c = 1, where k tends to 0. K and K' together are a manifold whose boundary is K', with the
-coordinates 1/a_n >= 0 and k_n/a_n, or k >= 0. Let N_1, N_2, .. be the networks that remain when one
-element is deleted or contracted, that have d - 1 elements, generic functions in K', and regular
-values.
-THEOREM. If all of these have a degree, that of N is the sum of theirs, each times 1 or -1: the sign
-of N's determinant, while that element is near its limit, times the sign of that of the N_i.
-Proof. Let F in K' be regular for all N_i, and no function of a network of fewer elements, of one of
-no regular values, or of values of a larger order: these have fewer dimensions. Let functions of K
-tend to F, and of values with these functions let a part converge in [0, oo]. F is a function of
-what remains. That is not N, whose functions all have c and z, so something is gone, and as F is
-generic one element is gone and an N_i remains. Let e >= 0 be the value of the element that is
-deleted or the inverse of one that is contracted. The coefficients are affine in e, all their terms
-have one sign, and at e = 0 they are those of N_i but for one that vanishes, that of the highest
-power of x in the denominator, or of the numerator if c = 1: it is e times a factor that is not 0 at
-positive values. So the determinant at e = 0 is that of N_i times this factor: near such values the
-map is one to one, with e = 0 where it gives K'. Hence functions of K near F have exactly one set of
-values near each of those of F, and no other. The signs are those in question.
+coordinates 1/a_n >= 0 and k_n/a_n, or k >= 0. Let N_1, N_2, .. be the networks of d - 1 elements,
+all seen, and generic functions in K' that remain when one B is deleted (c = 0) or one A is
+contracted (c = 1).
+THEOREM. The degree of N is the sum of those of the N_i, each times 1 or -1: -1 to the power of
+d + i + 1 if c = 0, of n + z + i if c = 1, i being the place, from 0, of the element that is gone.
+One element has the degree 1.
+Proof. Let F in K' be regular for all N_i and no function of fewer than d - 1 elements, which have
+fewer dimensions. Let functions of K tend to F, and of values with these functions let a part
+converge in [0, oo]. F is a function of what remains. That is not N, whose functions all have its c,
+so something is gone, and as F is generic one element is gone and an N_i remains, all of whose
+values have limits in (0, oo). The coefficients are sums of products of admittances (spanning trees
+and pairs of trees), and since all elements are seen the sum of the denominator and y times the
+numerator has no factor but x (the graph and an edge y at the port are in one block), so nothing
+cancels. Let e >= 0 be the admittance of the B or the inverse one of the A. One coefficient tends to
+0 with e, that of the highest power of x in the denominator (c = 0) or in the numerator (c = 1): it
+is e times the product of all other B. The others are those of N_i at e = 0. So the determinant of
+N is there that of N_i times this product, but for the sign: of the place of this coefficient, of
+the place of the element, and of the inverse. The map is one to one near such values, with e = 0
+where it gives K', and functions of K near F have exactly one set of values near each of those of F,
+and no other.
 """
 
-from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from itertools import product
 
-from flint import fmpz, fmpz_mat
-
 from disting.errors import InputError
-from disting.general.fibre_lists import coefficients, jacobian, one_less
+from disting.general.fibre_lists import one_less
 from disting.general.matrix_model import AnyModel, Model
 from disting.general.powers import placed_network
-from disting.network.network import Element, Network
+from disting.network.network import Network, parts
 from disting.network.normal_form import Part, Power, normal_form
 from disting.network.simplest import same_but_for_gears, simplest
 
-ONE_PORTS = 1024  # one-ports: each is asked about in many pairs
-MOST_ELEMENTS = 10  # of a one-port whose degree is computed: what remains of it doubles with each
-POWERS = (1, 2, 3)  # of values at which a determinant may be 0 by chance
+REMEMBERED = 4096  # networks: each is asked about in many pairs
+MOST_ELEMENTS = 14  # of a one-port whose degree is computed: what remains of it doubles with each
+MOST_LEFT_OUT = 3  # elements, of what remains
 TWO = 2  # kinds of elements
-REMEMBERED = 4096
 
 
-@lru_cache(maxsize=ONE_PORTS)
-def degree(network: Network) -> int | None:
-    """The degree of the map of a one-port of two kinds of elements, or of one element, to its set
-    K(n, c, z), up to its sign; None where it is not shown to have one.
+@lru_cache(maxsize=REMEMBERED)
+def degree(network: Network) -> int:
+    """The degree, up to its sign, of the map of a one-port of two kinds of elements to its set
+    K(n, c, z); 0 also where its elements are not 2 n + c + z, all seen.
 
     >>> from disting.network import network_of
-    >>> degree(network_of("#~1, 1~2, 2~3; F3:1; S3:1"))
-    1
+    >>> abs(degree(network_of("#~1, 1~2, 1~3; F3:2; S3:2")))
+    2
     """
-    model, kinds = Model.from_network(network), sorted({e.power for e in network.seen})
-    whole, d = _part_of(model), len(model.parameters)
-    if whole is None or not d == len(network.elements) == 2 * _order(whole) + len(whole.single):
-        return None
+    d, kinds = len(network.elements), sorted({e.power for e in network.elements})
     if d == 1:
-        return 1 if _determinant(model, _point(model, 1)) > 0 else -1
-    if d > MOST_ELEMENTS or model.powers.weights or _some_minor_reaches(network, whole):
-        return None
-    total, face = 0, _face(whole, kinds[0], kinds[-1])
-    for at, contracted, made in _one_less_each(network):
-        part = _part_of(made)
-        if part is None and len(made.parameters) == d - 1:
-            return None
-        if part == face and len(made.parameters) == d - 1 and _is_regular(made):
-            assert made.network is not None
-            known = degree(made.network)
-            if known is None:
-                return None
-            total += known * _sign_near(model, at, contracted, made)
+        return 1
+    numbers = _numbers(network, *kinds) if len(kinds) == TWO and d <= MOST_ELEMENTS else None
+    if numbers is None:
+        return 0
+    n, c, z = numbers
+    total = 0
+    for at, e in enumerate(network.elements):
+        less = one_less(network, at, contracted=c) if e.power == kinds[not c] else None
+        if less is not None and len(less.elements) == d - 1:
+            total += (-1) ** (at + (n + z if c else d + 1)) * degree(less)
     return total
 
 
-def _part_of(model: Model) -> Part | None:
-    """K(n, c, z) as a part that gives it, that of a single kind of elements being one of them."""
-    assert model.network is not None
-    kinds = {e.power for e in model.network.seen}
-    if len(kinds) == 1:
-        return Part("S", (*kinds,))
-    own = set_of(model)
-    return own and own[1]
-
-
-def _order(part: Part) -> int:
-    return sum(n for _, n in part.terms)
-
-
-def _face(whole: Part, low: Power, high: Power) -> Part:
-    """K': the constant vanishes, or a term becomes the constant."""
-    n = _order(whole)
-    if low in whole.single:
-        return Part("S", tuple(x for x in whole.single if x != low), whole.terms)
-    return Part("S", (low, *whole.single), (((low, high), n - 1),) if n > 1 else ())
-
-
-def _one_less_each(network: Network) -> Iterator[tuple[Element, bool, Model]]:
-    """Yield each element that can be deleted, or contracted, and what remains."""
-    for (at, e), contracted in product(enumerate(network.elements), (False, True)):
-        less = one_less(network, at, contracted)
-        if less is not None:
-            yield e, contracted, Model.from_network(less)
-
-
-def _is_regular(model: Model) -> bool:
-    """Return True if the determinant is not 0 at all values."""
-    numbers = (_determinant(model, _point(model, step)) for step in POWERS)
-    return any(numbers) or not jacobian(model).is_zero()
-
-
-def _sign_near(model: Model, gone: Element, contracted: bool, rest: Model) -> int:
-    """The sign of the determinant while an element is near its limit, times that of what remains:
-    the same at all values but those where one is 0.
-    """
-    at, to_zero = model.parameters.index(gone.value), contracted == gone.kind.divides
-    number, step = fmpz(0), 0
-    while not number:
-        step += 1
-        point = _point(model, step) | {gone.value: 0}
-        number = _determinant(rest, point) * _determinant(model, point, at, to_zero)
-    return 1 if number > 0 else -1
-
-
-def _point(model: Model, step: int) -> dict[str, int]:
-    """Values, the more different the higher the step."""
-    return {name: (i + 2) ** step + i for i, name in enumerate(model.parameters)}
-
-
-def _determinant(
-    model: Model, point: Mapping[str, int], at: int | None = None, to_zero: bool = False
-) -> fmpz:
-    """The determinant of the coefficients and their derivatives at a point; or its factor of the
-    lowest or the highest power of a value, which is 0 there. The coefficients a + b p are affine in
-    it: that is the determinant of a, the derivatives of a or of b by the others, and b.
-    """
-    values, row = [point[name] for name in model.parameters], coefficients(model)
-    varying = row if at is None or to_zero else [c.derivative(at) for c in row]
-    table = [row, *([c.derivative(i) for c in varying] for i in range(len(values)))]
-    if at is not None:
-        table[at + 1] = [c.derivative(at) for c in row]
-    return fmpz_mat([[c(*values) for c in entries] for entries in table]).det()
-
-
-def _some_minor_reaches(network: Network, whole: Part) -> bool:
-    """Return True if a remaining network has functions of that set, or this is unknown."""
-    model = Model.from_network(network)
-    todo, met = [network], {network}
-    while todo:
-        for _, _, made in _one_less_each(todo.pop()):
-            less = made.network
-            if less is None or less in met or _is_of_one_kind(less):
-                continue
-            met.add(less)
-            if made.n_states * model.powers.step < model.n_states * made.powers.step:
-                continue  # the degree in s is smaller
-            part = _part_of(made)
-            if part is None or (part.single == whole.single and _order(part) >= _order(whole)):
-                return True
-            todo.append(less)
-    return False
-
-
-def _is_of_one_kind(network: Network) -> bool:
-    """Its functions have no poles but at 0 and infinity."""
-    return len({e.power for e in network.elements}) == 1
+def _numbers(network: Network, low: Power, high: Power) -> tuple[int, bool, bool] | None:
+    """n, c, z of a one-port of 2 n + c + z elements that are all seen; None of any other."""
+    if len(network.seen) < len(network.elements) or any(e.ratio for e in network.elements):
+        return None
+    nodes, port = (0, *network.nodes), network.inputs[0]
+    of_low, of_high = (
+        [(e.nodes[0], (*e.nodes, 0)[1]) for e in network.elements if e.power == kind]
+        for kind in (low, high)
+    )
+    by_low, by_high = parts(nodes, of_low), parts(nodes, of_high)
+    c, z = by_high[port.plus] != by_high[port.minus], by_low[port.plus] != by_low[port.minus]
+    n = len(of_low) - c
+    no_loops = all(
+        len(set(by.values())) + len(ends) == len(nodes)
+        for by, ends in ((by_low, of_low), (by_high, of_high))
+    )
+    fits = n == len(of_high) - z and len(nodes) == n + c + z + 1
+    return (n, c, z) if fits and no_loops else None
 
 
 def replaceable(left: AnyModel, right: AnyModel) -> bool:
@@ -260,10 +180,17 @@ def _gives_all(network: Network, wanted: Part) -> bool:
     form = normal_form(network.grounded)
     if form and len(form.edges) == 1 and form.edges[0][2] == wanted:
         return True
-    if len(network.elements) <= 2 * _order(wanted) + len(wanted.single):
+    too_many = len(network.elements) - 2 * sum(n for _, n in wanted.terms) - len(wanted.single)
+    if not 0 < too_many <= MOST_LEFT_OUT:
         return bool(degree(network))
-    rest = (made for _, _, made in _one_less_each(network) if _part_of(made) == wanted)
-    return any(made.network is not None and _gives_all(made.network, wanted) for made in rest)
+    ways = product(range(len(network.elements)), (False, True))
+    rest = filter(None, (one_less(network, at, contracted) for at, contracted in ways))
+    return any(_is_in(less, wanted) and _gives_all(less, wanted) for less in rest)
+
+
+def _is_in(network: Network, wanted: Part) -> bool:
+    own = set_of(Model.from_network(network))
+    return own is not None and own[1] == wanted
 
 
 def set_of(model: AnyModel) -> tuple[int, Part] | None:

@@ -377,7 +377,10 @@ def test_numbers_of_a_bridge_are_those_of_its_function(check):
     ("#~1, #~2, 1~2, 1~3; F1; S3", "#~1, 1~2, 2~3; F3; S2:1", True),
     ("#~1, 1~2, 1~3, 2~3; F1; S2", "#~1, 1~2, 1~3, 2~3; F1; S2", False),  # of no part
     ("#~1, #~2, 1~2, 1~3; F1; S2:1", "#~1, #~2, 1~2, 1~3; F1; S2:1", False),
-    ("1~2, 2~3; F1; S2", "1~2, 2~3; F1; S2", False),  # free
+    ("1~2, 1~3, 1~4; F2; S3", "1~2, 1~3, 2~4; F1; S4", True),  # free
+    ("1~2, 1~3, 2~3, 1~4; F1; S4", "1~2, 2~3, 1~4; F4; S1", True),
+    ("1~2, 2~3; F1; S2", "#~1, 1~2; F1; S2", False), ("1~2, 2~3; F1; S2", "#~1, 1~2, 2~3; F1; S2", False),
+    ("1~2, 1~3, 2~3; F1; S2", "1~2, 1~3, 2~3; F1; S2", False),
     ("#=1, 1=2, 1=3; F1; S2", "#=1, 1=2, 1=3; F1; S2", False),  # dampers
     ("R1-p(R2,C1)", "R1-p(R2,C1)", False), ("1>2, 2>0; in 1; out 2", "1>2, 2>0; in 1; out 2", False),
     # read from the parts of one of them or of both

@@ -165,7 +165,7 @@ SEARCHED = {
     "machines-3": (2817, 16),
     "machines-3-damped": (1214, 230),
     "compartments-3": (8355, 919),
-    "trees-4": (2767, 337),
+    "trees-4": (2767, 42),
 }
 """Pairs that are the same over complex values, and those that stay open over positive ones."""
 

@@ -8,8 +8,10 @@ import pytest
 from disting import Relation, compare, verify
 from disting.general.any_model import of_network
 from disting.general.interlacing import machine_type
+from disting.model.chain import Quantity
 from disting.network.families import family_of
 from disting.network.notation import network_of
+from disting.network.notation.machine import machine
 from disting.verdict.verdict_file import verdict_file
 from tests.oracles.twins import twin
 
@@ -22,10 +24,12 @@ SAME = [
     ("#~1, #~2, 1~2, 1~3; F1; S3", "#~1, 1~2, 2~3; F3; S2:1"),
     ("#~1, #~2, #~3, 1~2, 1~3; F2; S3", "#~1, #~2, 1~3, 2~3; F1; S2"),
     ("#~1, 1~2, 1~3; F2:1; S2:1", "#~1, 1~2, 2~3; F3; S3:2"),  # as one with another ground
+    ("1~2, 1~3, 1~4; F2; S3", "1~2, 1~3, 2~4; F1; S4"),  # free
+    ("1~2, 1~3, 2~3, 1~4; F1; S4", "1~2, 2~3, 1~4; F4; S1"),  # free, with a loop
 ]
 OTHER = [
     "#~1, #~2, 1~2, 1~3; F1; S2:1",  # zeros of no part
-    "1~2, 2~3; F1; S2",  # none
+    "1~2, 2~3, 1~3; F1; S2",  # a free loop
     "#~1, 1~2, 1~3, 2~3; F1; S2",  # a loop
     "#=1, 1=2, 1=3; F1; S2",  # dampers
     "#~1, 1~2, 1~3; F1; S3:2",  # zeros that may be anywhere
@@ -58,6 +62,12 @@ def test_signs_and_numbers_of_zeros_are_told_apart():
     assert one != other
     turned = [of_network(network_of(f"#~1, 1~2, 1~3; F1; {s}")) for s in ("S2:1", "S1:2")]
     assert [m and m.sign for m in map(machine_type, turned)] == [-1, 1]
+
+
+def test_quantities_and_free_machines_are_told_apart():
+    free = [machine("1~2, 2~3; F1; S2", "", quantity) for quantity in Quantity]
+    networks = [*free, network_of("#~1, 1~2; F1; S2"), network_of("1~2, 2~3; F1; S3")]
+    assert len({machine_type(of_network(n)) for n in networks} - {None}) == len(networks)
 
 
 @pytest.mark.full
