@@ -249,7 +249,9 @@ def test_what_nobody_needs_any_more_is_given_up(visit):
     with visit("machine") as tab:
         write(tab, "1=2; F1; S1")
         left = []
-        tab.on("requestfailed", lambda request: left.append(request.post_data_json["text"]))
+        tab.on(
+            "requestfailed", lambda request: left.append((request.post_data_json or {}).get("text"))
+        )
         held = hold(tab, "determine")
         tab.fill("#machine-text", "1=2=3; F1; S3")
         tab.locator("#determined .waiting").wait_for()

@@ -7,7 +7,7 @@ import random
 from dataclasses import replace
 
 import pytest
-from hypothesis import assume, given, settings, strategies as st
+from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 from disting import Query, View, compare
 from disting.algebra.certainty import prime
@@ -70,7 +70,7 @@ def agrees(model, draw):
 
 
 @pytest.mark.full
-@settings(max_examples=40)
+@settings(max_examples=40, suppress_health_check=[HealthCheck.filter_too_much])
 @given(descriptions(), st.integers(0, 1000))
 def test_random_networks(description, seed) -> None:
     network = built(description)
