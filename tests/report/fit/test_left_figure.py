@@ -26,7 +26,6 @@ def left():
     return train, select(train, [ROW], test=test, controller=LAW)
 
 
-@pytest.mark.slow
 def test_every_structure_and_equivalent_is_named_in_the_files(left):
     train, found = left
     drawn = left_figure(found, train)
