@@ -39,7 +39,8 @@ THEOREMS = {
     ),
     "interlacing": (
         "{left} and {right} are undamped machines with the same number of masses: each can have any"
-        " resonances, and any antiresonances that lie each between two neighbouring resonances"
+        " resonances (the lowest is 0 if they are free), and any antiresonances that lie each"
+        " between two neighbouring resonances"
     ),
     "springs to the ground": (
         "{left} and {right} are undamped, with force and sensor each at one mass, and become the"

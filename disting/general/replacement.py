@@ -81,7 +81,7 @@ TWO = 2  # kinds of elements
 @lru_cache(maxsize=REMEMBERED)
 def degree(network: Network) -> int:
     """The degree, up to its sign, of the map of a one-port of two kinds of elements to its set
-    K(n, c, z); 0 also where its elements are not 2 n + c + z, all seen.
+    K(n, c, z); 0 also where its elements are not 2 n + c + z, all seen, or more than 14.
 
     >>> from disting.network import network_of
     >>> abs(degree(network_of("#~1, 1~2, 1~3; F3:2; S3:2")))
@@ -107,19 +107,15 @@ def _numbers(network: Network, low: Power, high: Power) -> tuple[int, bool, bool
     if len(network.seen) < len(network.elements) or any(e.ratio for e in network.elements):
         return None
     nodes, port = (0, *network.nodes), network.inputs[0]
-    of_low, of_high = (
-        [(e.nodes[0], (*e.nodes, 0)[1]) for e in network.elements if e.power == kind]
-        for kind in (low, high)
-    )
-    by_low, by_high = parts(nodes, of_low), parts(nodes, of_high)
+    ends = [((e.nodes[0], (*e.nodes, 0)[1]), e.power) for e in network.elements]
+    by_low, by_high = (parts(nodes, [x for x, kind in ends if kind == k]) for k in (low, high))
     c, z = by_high[port.plus] != by_high[port.minus], by_low[port.plus] != by_low[port.minus]
-    n = len(of_low) - c
-    no_loops = all(
-        len(set(by.values())) + len(ends) == len(nodes)
-        for by, ends in ((by_low, of_low), (by_high, of_high))
+    of_low, of_high, of_all = (
+        len(nodes) - len({*by.values()})  # edges of a spanning forest
+        for by in (by_low, by_high, parts(nodes, [x for x, _ in ends]))
     )
-    fits = n == len(of_high) - z and len(nodes) == n + c + z + 1
-    return (n, c, z) if fits and no_loops else None
+    n = of_low + of_high - of_all
+    return (n, c, z) if len(ends) == 2 * n + c + z else None
 
 
 def replaceable(left: AnyModel, right: AnyModel) -> bool:

@@ -36,8 +36,9 @@ _PHRASES = (
     ("are the same except for", "are the same but for"),
     ("a gear changes only the units behind it", "a gear is a change of the units behind it"),
     (
-        "are undamped machines with the same number of masses: each can have any resonances, and"
-        " any antiresonances that lie each between two neighbouring resonances",
+        "are undamped machines with the same number of masses: each can have any resonances"
+        " (the lowest is 0 if they are free), and any antiresonances that lie each between two"
+        " neighbouring resonances",
         "are undamped trees of as many masses with one spring to the ground: each gives any"
         " resonances, and any antiresonances each of which is between two neighbouring ones of"
         " them",
