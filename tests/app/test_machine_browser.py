@@ -28,8 +28,11 @@ def own(tmp_path_factory) -> Iterator[Served]:
 @pytest.fixture
 def visit(browser, own):
     """Open a page of the app; in the meantime nothing on the console but answers that refuse a
-    request, and no request but its own.
+    request, and no request but its own. What was saved last is a machine that no test writes, so
+    that nobody takes its answers for those of what is written.
     """
+    saved = {"text": "1~2-#; F1; S2", "places": {}}
+    assert own.call("save", {"page": "machine", "content": saved})[0] == 200
 
     @contextmanager
     def go(page: str, width: int = 1280, scheme: str = "light", **more):
@@ -54,7 +57,7 @@ def visit(browser, own):
 
 def write(tab, text: str) -> None:
     """Type a machine and wait for its answers."""
-    tab.locator("#determined p").first.wait_for()
+    tab.locator("#determined .verdict").wait_for()
     tab.fill("#machine-text", text)
     tab.locator("#determined", has=tab.locator(f"[data-of={json.dumps(text)}]")).wait_for()
 
@@ -209,6 +212,14 @@ def test_a_gear_by_mouse_by_keys_and_by_touch(visit):
             tab.focus(f".bench [data-node='{node}']")
             tab.keyboard.press("Enter")
         assert tab.get_attribute(".bench [data-node='1']", "aria-pressed") == "true"
+        held = hold(tab, "machine")
+        tab.fill("#machine-text", "1=2=3; F1; S1")  # the machine that is there
+        while not held:
+            tab.wait_for_timeout(50)
+        with tab.expect_response("**/api/machine"):
+            release(tab, "machine", held)
+        tab.locator(".answers:not(.stale)").wait_for()
+        assert tab.get_attribute(".bench [data-node='1']", "aria-pressed") == "true"
 
 
 def test_what_looks_the_same_leads_to_both(visit):
@@ -343,20 +354,25 @@ def test_bode_diagrams_a_sweep_and_the_nearest_values(visit):
 @pytest.mark.parametrize(
     ("page", "field"), [("compare", "#compare-left"), ("machine", "#machine-text")]
 )
-def test_what_is_written_before_the_saved_page_comes_stays(visit, page, field):
-    """The page asks for what was shown last; it came late and replaced what somebody wrote."""
+@pytest.mark.parametrize(("before", "after"), [("3:1", ""), ("", "3:1")])
+def test_what_is_written_before_the_saved_page_comes_stays(visit, page, field, before, after):
+    """The page asks for what was shown last; it came late, replaced what somebody wrote, and stood
+    before what somebody was about to write.
+    """
     with visit("data") as tab:
         held = []
         tab.route("**/api/open", lambda route: held.append(route))
         tab.goto(f"{tab.url.partition('#')[0]}?#{page}")
         tab.reload()
-        tab.fill(field, "3:1")
+        tab.focus(field)
+        tab.keyboard.type(before)
         while not held:
             tab.wait_for_timeout(50)
         for route in held:
             route.continue_()
         tab.unroute("**/api/open")
-        tab.wait_for_timeout(1000)
+        tab.wait_for_timeout(500)
+        tab.keyboard.type(after)
         assert tab.input_value(field) == "3:1"
 
 

@@ -89,6 +89,6 @@ export const start = async (root, call) => {
   };
   open = show;
   const saved = pending ?? (await call("open", { page: "compare" }).then(({ content }) => content && [content.left, content.right]).catch(() => null));
-  if (left.value || right.value) return; // somebody wrote while the saved pair was on its way
+  if ([left, right].some((input) => input.value || input === document.activeElement)) return; // somebody writes while the saved pair is on its way
   show(...(saved?.every((text) => typeof text === "string") ? saved : FIRST));
 };

@@ -188,7 +188,7 @@ export const start = async (root, call) => {
   });
   bench.show(EMPTY);
   const saved = (await call("open", { page: "machine" }).catch(() => ({ content: null }))).content;
-  if (text.value) return; // somebody wrote while the saved machine was on its way
+  if (text.value || text === document.activeElement) return; // somebody writes while the saved machine is on its way
   text.value = typeof saved?.text === "string" ? saved.text : GALLERY[0][1];
   await read({ text: text.value }, saved?.places ?? {});
 };

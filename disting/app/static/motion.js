@@ -16,7 +16,7 @@ const loadScripts = () => (scripts ??= SCRIPTS.reduce((before, name) => before.t
 const largestOf = (lists) => lists.reduce((high, list) => list.reduce((most, x) => Math.max(most, Math.abs(x)), high), 1e-12);
 
 export const createMotion = () => {
-  let pair = null, run = null, playing = false, time = 0, before = null, frame = 0, second = null, showRun = () => {}, showBode = () => {};
+  let turn = 0, pair = null, run = null, playing = false, time = 0, before = null, frame = 0, second = null, showRun = () => {}, showBode = () => {};
   const drawings = ["one", "two"].map(() => svg("svg", { class: "chain", role: "img" })), captions = ["one", "two"].map(() => element("figcaption"));
   const curves = svg("svg", { id: "motion-run", class: "plot", role: "img" }), bode = svg("svg", { id: "motion-bode", class: "plot", role: "img" });
   const how = element("p", { id: "motion-how" }), nearest = element("div", { id: "motion-nearest" }), hint = element("p", { class: "hint" });
@@ -86,7 +86,9 @@ export const createMotion = () => {
   };
   const listOf = (names, values) => names.map((name, i) => `${name} = ${short(values[i])}`).join(", ");
   const show = async ({ machines, values, same }, names, relation) => {
+    const mine = ++turn;
     await loadScripts();
+    if (mine !== turn) return; // it was stopped meanwhile
     pair = { names, values, most: null, machines: machines.map(machineOf), move: machines.map((given, i) => drawGraph(drawings[i], given)) };
     captions.forEach((caption, i) => { caption.textContent = names[i]; });
     drawings.forEach((drawing, i) => drawing.setAttribute("aria-label", `${names[i]} in motion`));
@@ -96,9 +98,8 @@ export const createMotion = () => {
     time = 0;
     if (same) compute();
     else {
-      const mine = pair, found = showNearest(mine);
+      const found = showNearest(pair), [given, other] = pair.machines;
       second = createSecond(found);
-      const [given, other] = mine.machines;
       found(second.follow({ given, other, values: values[0], usual: values[1], kind: NEAREST[relation] ?? "open", pair: names.join(" ") }));
     }
     play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
@@ -108,6 +109,6 @@ export const createMotion = () => {
       element("div", { class: "motion-stage" },
         element("div", {}, element("div", { class: "two-drawings" }, drawings.map((drawing, i) => element("figure", {}, captions[i], drawing))), curves), bode), hint, nearest],
     show,
-    stop: () => { pair = run = null; play(false); },
+    stop: () => { turn++; pair = run = null; play(false); },
   };
 };
