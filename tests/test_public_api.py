@@ -196,7 +196,8 @@ NOT_FOR_A_FIT = (
 @pytest.mark.full
 def test_a_fit_loads_what_it_needs(tmp_path):
     """Of two simulated measurements, printed as text: neither a plan nor a simulation, no engine
-    for networks, no page, no reader of another format.
+    for networks, no page, no reader of another format, none of the parts of SciPy that take a second
+    to import.
     """
     for seed in ("1", "2"):
         command = (
@@ -209,13 +210,13 @@ def test_a_fit_loads_what_it_needs(tmp_path):
         f"import sys; from disting.cli import main; status = main({words})\n"
         "loaded = {n: m.__file__ for n, m in sys.modules.items() if n.startswith('disting')}\n"
         "lines = sum(len(open(f, encoding='utf-8').readlines()) for f in loaded.values())\n"
-        "print('loaded', status, lines, *loaded)"
+        "print('loaded', status, lines, *loaded, *({'scipy.signal', 'scipy.stats'} & {*sys.modules}))"
     )
     said = fresh(code)
     status, lines, *loaded = said[said.index("loaded") + 1 :]
     assert status == "0" and "disting.fit.select" in loaded
     assert len(loaded) <= MOST_OF_A_FIT and int(lines) <= MOST_LINES_OF_A_FIT
-    needless = tuple(f"disting.{name}." for name in NOT_FOR_A_FIT)
+    needless = "scipy.", *(f"disting.{name}." for name in NOT_FOR_A_FIT)
     assert [name for name in loaded if f"{name}.".startswith(needless)] == []
 
 
@@ -223,7 +224,12 @@ def test_a_fit_loads_what_it_needs(tmp_path):
 def test_sympy_is_loaded_for_its_expressions_alone(tmp_path):
     """Not where formulas are written; all in one process, whose last line asks for an expression."""
     maps = "equivalents 3:4 --to 3:1 --undamped --"
-    commands = ("models 3", f"{maps}formulas", f"{maps}latex", f"report 1 --out {tmp_path / 'out'}")
+    commands = (
+        "models 3",
+        f"{maps}formulas",
+        f"{maps}latex",
+        f"report 1 --undamped --out {tmp_path}",
+    )
     code = (
         "import sys, disting; from disting.cli import main\n"
         f"for command in {commands}: main(command.split()); print('loaded', 'sympy' in sys.modules)\n"

@@ -6,7 +6,7 @@ from importlib import import_module
 
 from disting.app.interface import CALLS
 
-LIBRARIES = ("numpy", "networkx", "scipy.optimize", "scipy.stats", "scipy.signal")  # loaded late
+LIBRARIES = ("numpy", "networkx", "scipy.optimize")  # loaded late
 
 for name in LIBRARIES:
     import_module(name)

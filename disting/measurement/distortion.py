@@ -39,7 +39,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter1d
-from scipy.stats import f as f_distribution
+from scipy.special import fdtri
 
 from disting.measurement.arrays import Complex, Real, apply
 from disting.model.presentation import plural, summary
@@ -196,7 +196,7 @@ def _is_larger(total: Real, noise: Real, size: Real, repeats: tuple[float, float
         return False
     near = uniform_filter1d((noise / size) ** 2, NEAR, mode="nearest")
     ratio = float(np.mean((total / size) ** 2 / np.maximum(near, LEAST**2)))
-    return ratio > float(f_distribution.isf(SURE, *(2 * len(total) * n for n in repeats)))
+    return ratio > float(fdtri(*(2 * len(total) * n for n in repeats), 1 - SURE))
 
 
 def _average_power(power: Real, at: Real, omega: Real, size: Real) -> Real:

@@ -62,7 +62,7 @@ def holds_transient(first: Real, second: Real) -> bool:
     >>> holds_transient(*noise), holds_transient(noise[0] + 5 * np.exp(-time / 100), noise[1])
     (False, True)
     """
-    from scipy.stats import f
+    from scipy.special import fdtri
 
     d = _level(first - second)
     size = len(d) // PARTS
@@ -72,7 +72,7 @@ def holds_transient(first: Real, second: Real) -> bool:
     if not octaves:
         return True
     tests = [_test(power[:, low:high]) for low, high in octaves]
-    return any(r > f.isf(LEVEL / len(tests), nu, PARTS / 2 * nu) for r, nu in tests)
+    return any(r > fdtri(nu, PARTS / 2 * nu, 1 - LEVEL / len(tests)) for r, nu in tests)
 
 
 def _level(d: Real) -> Real:

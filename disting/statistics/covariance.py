@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
-from scipy.signal import lfilter
+from scipy.linalg import solve_banded
 
 from disting.measurement.arrays import Real
 
@@ -131,6 +131,7 @@ def _carry_rows(rows: Real, r: float) -> Real:
     """L' rows, with L L' = r^|i-j|: what each independent innovation of the chain of lines
     moves.
     """
-    moved = np.asarray(lfilter([1.0], [1.0, -r], rows[::-1], axis=0)[::-1])
+    bands = np.repeat([[-r], [1.0]], len(rows), axis=1)
+    moved = np.asarray(solve_banded((0, 1), bands, rows))
     moved[1:] *= sqrt(1 - r * r)
     return moved

@@ -51,8 +51,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, nnls
 from scipy.sparse import csr_array
-from scipy.special import digamma, polygamma
-from scipy.stats import f as f_distribution
+from scipy.special import digamma, fdtri, polygamma  # scipy.stats takes a second to import
 
 from disting.measurement import FrequencyResponse
 from disting.measurement.arrays import Complex, Real
@@ -369,7 +368,7 @@ def _check_scatter(
     """Standard deviations checked by neighbouring lines."""
     lines_free = freedom(measured.omega)
     level = _excess(seen, variance) + 1
-    if level > f_distribution.isf(SURE, lines_free, own.freedom):
+    if level > fdtri(lines_free, own.freedom, 1 - SURE):
         widened = _widen_variance(variance, seen, measured)
         if widened is None:
             return own
@@ -380,7 +379,7 @@ def _check_scatter(
             freedom=lines_free,
         )
     # distortion by a sweep is smooth over the lines
-    small = f_distribution.ppf(SURE, lines_free, own.freedom)
+    small = fdtri(lines_free, own.freedom, SURE)
     if measured.nonlinear is None and level * WRONG**2 < 1 and level < small:
         return replace(
             own,
@@ -440,7 +439,7 @@ def change(
         return 0.0
     power = np.abs(np.log(other.G[common] / own_response.G[at[common]])) ** 2
     both = 2 * (own.rho[at[common]] ** 2 + other_scatter.rho[common] ** 2)
-    sure = f_distribution.isf(SURE, 2 * len(both), min(own.freedom, other_scatter.freedom))
+    sure = fdtri(2 * len(both), min(own.freedom, other_scatter.freedom), 1 - SURE)
     if np.mean(power / both) <= sure:
         return 0.0
     return _balance_tau(lambda tau: float(np.mean(power / (both + 4 * tau**2))) - 1)

@@ -56,7 +56,7 @@ def row_bases(p):
 
 
 @pytest.mark.thin(6)
-@pytest.mark.sampled(13)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("chain", THREE, ids=str)
 @pytest.mark.parametrize(("representation", "count"), [(TF, 0), (MARKOV, 7)])
 def test_three_mass_profiles_are_the_oracle_s(chain, representation, count):

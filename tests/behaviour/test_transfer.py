@@ -73,7 +73,7 @@ def test_at_random_numbers(chain, seed):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(9)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     "chain",
     [

@@ -93,6 +93,7 @@ def test_packages_of_the_site_and_hashes_of_texts_change_nothing():
 OTHERS = "pypy3", *(f"python3.{minor}" for minor in range(9, 16))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize("name", ["chains-3-damped", "dampers-3-undamped", "networks-cells-4"])
 def test_another_python_gives_the_same_table(name):

@@ -81,6 +81,7 @@ def test_larger_families_are_current_to_the_byte(n, damped):
         )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), ALL)
 def test_without_dampers_as_the_shipped_catalogue_says(n, damped):
@@ -105,6 +106,7 @@ def test_at_random_as_compare_says(n):
             )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), ALL)
 def test_what_the_exact_decision_settled_at_random_as_one_fibre_says(n, damped):

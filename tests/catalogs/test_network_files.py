@@ -193,6 +193,7 @@ def test_a_large_family_is_searched_in_brief(searched):
     assert all(WAS_BRIEF in r["finding"].note for r in open_)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.full
 def test_pairs_of_a_large_family_are_found_again(searched):
     """Some that were asked about: parts of the networks do not tell them."""
@@ -206,6 +207,7 @@ def test_pairs_of_a_large_family_are_found_again(searched):
         assert engine.answer(searched_by, models, engine.settings) == r["finding"]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.full
 def test_what_pairs_have_from_others_is_true_of_them(searched):
     """That networks which give the same do so, by twins in plain numbers, and all evidence of some."""
@@ -239,6 +241,7 @@ def test_what_a_theorem_tells_is_written_beside_an_open_search():
     assert record["finding"][1] == "abandoned"
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.full
 @pytest.mark.parametrize("name", ["circuits-4", "machines-3-damped"])
 def test_what_can_be_determined_is_taken_over(name):
@@ -251,6 +254,7 @@ def test_what_can_be_determined_is_taken_over(name):
         assert engine.answers[key].to_dict() == record["identifiability"]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.full
 @pytest.mark.parametrize(
     ("group", "kinds"),
@@ -341,6 +345,7 @@ def first_witnesses(lines):
     )
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.full
 @pytest.mark.parametrize(
     ("digits", "told"),

@@ -32,6 +32,7 @@ SIZE = {1: 1, 2: 3, 3: 11, 4: 29, 5: 73}
 # distinguishable from the original models in all eleven cases".
 @pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
+@pytest.mark.sampled(5)
 def test_a_lag_is_always_distinguishable_from_none(n, damped):
     found = with_and_without_lag(Family(n, damped), ENGINE)
     assert Counter((v.relation, v.decided_by, v.certainty) for v in found) == {
@@ -39,6 +40,7 @@ def test_a_lag_is_always_distinguishable_from_none(n, damped):
     }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.full
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
 def test_no_lagged_model_is_any_original_one(n, damped):
@@ -61,6 +63,7 @@ def test_lagged_against_original_damped_ones_by_condition():
     }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.thin(2)
 @pytest.mark.parametrize(("n", "damped"), FAMILIES)
 def test_a_dead_time_is_told_from_none_by_a_theorem(n, damped):

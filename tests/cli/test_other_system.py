@@ -83,6 +83,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("chosen", [SHORT, pytest.param((), marks=pytest.mark.slow)], ids=len)
 def test_every_command_runs_where_posix_is_not_and_names_are_not_ascii(tmp_path, chosen):
     run = [command for command in COMMANDS if not chosen or command[0] in chosen]

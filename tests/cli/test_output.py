@@ -38,6 +38,7 @@ def models(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @POSIX
 @pytest.mark.parametrize(
@@ -62,6 +63,7 @@ def test_data_are_the_same_bytes_in_a_file_and_on_any_standard_output(
     assert not content.isascii() and content.decode("utf-8")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @POSIX
 @pytest.mark.parametrize(
@@ -121,6 +123,7 @@ def test_signs_of_words_stay_readable_where_no_name_needs_them(tmp_path: Path) -
     assert done.returncode == 0 and b"\\u" not in done.stdout and done.stdout.isascii()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @POSIX
 @pytest.mark.parametrize(

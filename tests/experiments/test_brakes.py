@@ -33,6 +33,7 @@ def agrees_with_groebner_bases(left, right, pair):
     assert found.relation.value == ("indistinguishable" if all(ways) else "distinguishable")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.full
 @pytest.mark.parametrize(
     ("left", "right", "i", "j"),
@@ -65,7 +66,7 @@ def random_pairs(count, seed):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", list(random_pairs(12, "brakes")), ids=str)
 def test_random_brakes(case):
     agrees_with_groebner_bases(*case)
@@ -106,6 +107,7 @@ def test_a_brake_adds_no_inertia():
     assert _by_mass(under(INERTIA, 1), under(INERTIA, 1)) is not None
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.full
 @pytest.mark.parametrize("argument", ["brakes", "springs"])
 def test_rows_that_show_the_same_have_equivalents(argument):

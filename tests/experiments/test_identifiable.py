@@ -72,7 +72,7 @@ def test_there_are_468_cases():
 
 
 @pytest.mark.full
-@pytest.mark.sampled(21)
+@pytest.mark.sampled(13)
 @pytest.mark.parametrize(("chain", "kind", "i"), [*TWO[::3], *THREE[::24]])
 def test_ranks(chain, kind, i):
     check_ranks(chain, kind, i)
@@ -84,6 +84,7 @@ def test_all_ranks(chain, kind, i):
     check_ranks(chain, kind, i)
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.full
 @pytest.mark.parametrize(("chain", "kind", "i"), TWO[::6])
 def test_whether_other_values_fit(chain, kind, i):

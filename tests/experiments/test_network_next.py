@@ -41,7 +41,7 @@ GROUPS = [
 
 
 @pytest.mark.full
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("n", "damped", "numbers"), GROUPS)
 def test_chains_are_told_what_they_are_told_as_chains(n, damped, numbers, engine):
     family = Family(n, damped=damped)

@@ -89,6 +89,7 @@ def test_the_group_of_five_undamped(engine):
     ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.full
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_tables_say_what_compare_says(kind, engine):
@@ -215,6 +216,7 @@ def agrees_with_other_code(names, kind, i, j):
     return same is (said is Relation.INDISTINGUISHABLE)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.full
 @pytest.mark.parametrize("case", DAMPERS[1::5], ids=str)
 def test_truth_with_dampers_to_the_ground(case):

@@ -55,7 +55,7 @@ def reflected(chain, values):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize(("number", "kind"), list(product((2, 4, 5, 8, 9, 10), KINDS)))
 def test_the_standard_form_shows_the_same(number, kind):
     chain = U[number]

@@ -5,10 +5,11 @@ work resumes.
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from itertools import permutations
+from itertools import permutations, product
 
 import numpy as np
 import pytest
+from scipy.signal import find_peaks
 
 from disting.errors import InputError
 from disting.fit.judge.modes import poles, zeros
@@ -24,7 +25,7 @@ from disting.fit.search.exchange import (
 )
 from disting.fit.search.neighbours import carry_over, conspicuous, neighbours, split_starts
 from disting.fit.search.plant import Plant
-from disting.fit.search.starts import cauer, extrema, merge, scale, shorten
+from disting.fit.search.starts import PROMINENCE, cauer, extrema, merge, peaks, scale, shorten
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.store import Store
@@ -294,6 +295,14 @@ def test_the_continued_fraction_gives_masses_and_springs_back():
     )
     masses, springs = cauer(sum(p[:4]), list(zip(z, p_, strict=True)))
     np.testing.assert_allclose([*masses, *springs], p, rtol=1e-5)
+
+
+def test_peaks_are_those_of_scipy():
+    source = np.random.default_rng(5)
+    for size, digits in product(range(1, 40), (1, 12)):  # with equal neighbours, and without
+        level = np.round(source.normal(size=size).cumsum() / 5, digits)
+        at, more = find_peaks(level, prominence=PROMINENCE)
+        assert peaks(level) == [*zip(at, more["prominences"], strict=True)]
 
 
 def test_extrema_are_seen_where_they_are():

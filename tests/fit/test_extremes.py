@@ -55,6 +55,7 @@ def test_networks_refuse_them_too(data):
         fit_networks(FrequencyResponse(*data), [network_of("R0-p(R1,C1)")])
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.full
 @pytest.mark.parametrize(
     "name",

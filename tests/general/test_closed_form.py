@@ -96,7 +96,7 @@ def response(text, values, at):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(9)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(("one", "other", "count", "by_roots"), PAIRS)
 def test_both_give_the_same(one, other, count, by_roots):
     """At numbers, in SymPy, to 30 digits."""
@@ -121,6 +121,7 @@ SOLVED = (
 )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize(("one", "other", "by_roots", "seen", "chosen"), SOLVED)
 def test_equations_of_few_values(one, other, by_roots, seen, chosen):

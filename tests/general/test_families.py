@@ -43,6 +43,7 @@ def decided(store, view, executor=None):
     return engine.decisions(subjects, Query(view), executor=executor)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize("view", [View.EXACT, View.REAL, View.POSITIVE])
 def test_a_list_is_decided_as_its_pairs_are(view):
@@ -83,6 +84,7 @@ def test_verdicts_that_contradict_a_class_are_refused():
         found.classes()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize(
     ("damped", "view"), [(False, View.EXACT), (True, View.EXACT), (True, View.POSITIVE)]

@@ -37,6 +37,7 @@ OTHER = [
 ]
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.full
 @pytest.mark.parametrize("pair", SAME)
 def test_trees_that_are_the_same(pair):

@@ -40,6 +40,7 @@ def tf(num, den):
     return Model.from_transfer_function(num, den)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize(
     "pair", [PAIRS[0], pytest.param(PAIRS[1], marks=pytest.mark.slow), *PAIRS[2:]]

@@ -62,7 +62,7 @@ PAIRS = [pair for group in (PLAIN, SERIES, BLOCKING) for pair in combinations(gr
 
 
 @pytest.mark.full
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(("left", "right"), PAIRS)
 def test_all_pairs_of_two_rc_one_ports_are_the_same(left, right):
     verdict = compare(model(left, "left"), model(right, "right"), query=Query(view=View.POSITIVE))

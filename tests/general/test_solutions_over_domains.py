@@ -69,7 +69,7 @@ def agree(text, points):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("text", FEW)
 def test_numbers_against_sympy(text):
     agree(text, 2)

@@ -23,6 +23,7 @@ from tests.laws.pairs import (
 )
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.full
 @pytest.mark.parametrize("view", [View.COMBINED, View.EXACT])
 @pytest.mark.parametrize(("n_masses", "damped"), SMALL)
@@ -68,6 +69,7 @@ def assert_transitive(relations, n):
             assert relations(a, c) is not apart
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.full
 @pytest.mark.parametrize("view", View)
 @pytest.mark.parametrize(("n_masses", "damped"), [(3, False), (3, True), (4, False), (4, True)])
@@ -79,7 +81,7 @@ def test_indistinguishability_is_transitive(n_masses, damped, view):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("model", range(1, 12))
 def test_indistinguishability_is_transitive_among_ground_dampers(model):
     chain = Family(3, damped=True)[model]

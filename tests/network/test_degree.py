@@ -47,6 +47,7 @@ def test_the_degree_of_bridges_of_four_masses(text, known):
     assert full_set(of_network(network_of(text)))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize("text", [BRIDGE, ENDS, *SOME])
 def test_the_sum_of_signs_is_the_degree_everywhere(text):

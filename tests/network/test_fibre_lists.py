@@ -124,7 +124,7 @@ def test_what_lists_find_is_found_around_it_too(pair):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("pair", SOMETIMES)
 def test_pairs_that_are_the_same_for_some_values(pair):
     left, right = models(pair)

@@ -107,7 +107,7 @@ SAME = [
 
 
 @pytest.mark.full
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("pair", "view"), list(product(SAME, [View.EXACT, View.REAL, View.POSITIVE]))
 )

@@ -47,7 +47,7 @@ TURNED = [
 
 
 @pytest.mark.full
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("left", "right"), SAME)
 def test_parts_that_replace_each_other(left, right):
     assert has_one_form(network_of(left), network_of(right))

@@ -69,6 +69,7 @@ def has_one_form(left, right):
     return one is not None and one == simplest(right)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize(
     "name", [*FAMILIES, *(pytest.param(n, marks=pytest.mark.slow) for n in LARGE)]
@@ -138,6 +139,7 @@ def pattern(model, _):
     return [list(map(bool, side)) for side in (model.numerator_terms, model.denominator_terms)]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize(("left", "right", "relation"), DECIDED)
 def test_pairs_that_were_open(left, right, relation):

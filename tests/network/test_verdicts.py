@@ -30,6 +30,7 @@ MANY = [
 DAMAGED = ["machines-2", "machines-2-damped", "circuits-4", "cells-4", "compartments-2"]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @needs_singular
 @pytest.mark.parametrize(("name", "most"), FEW)

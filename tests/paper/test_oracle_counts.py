@@ -126,7 +126,7 @@ EXAMPLES = [
 
 
 @pytest.mark.thin(2)
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("chain", EXAMPLES, ids=str)
 def test_the_quick_transfer_function_is_the_textbook_one(chain: Chain) -> None:
     assert sympy_twin.transfer_function(chain) == sympy_twin.transfer_function_textbook(chain)

@@ -95,7 +95,7 @@ def test_the_reader_of_every_kind_of_record_is_a_few_lines_of_numpy(kind):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("repeats", [1, 2, 10])
 @pytest.mark.parametrize("kind", ["white", "coloured", "quantised", "swept"])
 def test_whitened_residuals_of_every_kind_are_standard_normal(kind, repeats):

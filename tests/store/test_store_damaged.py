@@ -203,7 +203,7 @@ def test_a_file_removed_under_an_open_store(filled: Path) -> None:
 
 
 @pytest.mark.thin(1)
-@pytest.mark.sampled(15)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("seed", range(45))
 def test_no_flipped_bit_ever_gives_a_wrong_value(seed: int, filled: Path) -> None:
     """A third of the bits are in the header and the first page, where they do the most harm."""

@@ -106,6 +106,7 @@ def three_ways(words, folder):
     return without.stdout
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.full
 @pytest.mark.parametrize("words", COMPARED, ids=" ".join)
 def test_verdicts_on_chains(words, tmp_path):

@@ -136,6 +136,7 @@ def as_functions(random, model):
     return Model.from_transfer_function(*(side.subs(new, simultaneous=True) for side in sides))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize("family", ["machines-2", "circuits-4", "compartments-2"])
 def test_a_bare_transfer_function_is_never_told_more(family):

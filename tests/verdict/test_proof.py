@@ -37,6 +37,7 @@ def decided(n, damped):
     )
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.full
 @pytest.mark.parametrize("size", [(1, 3), (2, 2), (3, 2), (2, 3)])
 @pytest.mark.parametrize("rank_below", [0, 1])

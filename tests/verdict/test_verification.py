@@ -37,6 +37,7 @@ def test_what_was_decided_holds(kind: str) -> None:
     assert verify(plain(left, right, view)).sentence == "holds"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize("kind", ["ranks", "both ways", "dead time"])
 def test_every_altered_leaf_is_found(kind: str) -> None:

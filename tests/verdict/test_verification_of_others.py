@@ -120,6 +120,7 @@ def told(name: str) -> dict[str, Any]:
     return plain(left, right, **said)
 
 
+@pytest.mark.sampled(15)
 @pytest.mark.full
 @pytest.mark.parametrize("name", CASES)
 def test_what_was_decided_holds_from_its_file_alone(name: str) -> None:
@@ -147,6 +148,7 @@ def lies(data: dict[str, Any]) -> list[dict[str, Any]]:
     return [*found, {"models": data["models"][::-1]}]
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.full
 @pytest.mark.parametrize("name", CASES)
 def test_who_lies_and_writes_all_that_is_derived_anew_is_found_out(name: str) -> None:
@@ -185,6 +187,7 @@ def test_every_altered_leaf_is_found(name: str) -> None:
     assert not missed(told(name), "num", "den", "G", "elements", "experiments", "rounded")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.full
 @pytest.mark.parametrize(
     ("name", "free"),

@@ -92,7 +92,7 @@ def test_chains_of_other_degrees_have_no_common_point() -> None:
 
 
 @pytest.mark.full
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("pair", SAME, ids=str)
 def test_three_masses_damped_sample(pair: tuple[int, int]) -> None:
     family = Family(3, damped=True)

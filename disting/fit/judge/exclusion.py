@@ -30,7 +30,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2, f as f_distribution
+from scipy.special import chdtri, fdtri
 
 from disting.decide.identifiability.tangent import proof_tangents
 from disting.fit.search.containment import contains
@@ -144,8 +144,8 @@ def limit(surplus: int, freedom: float, trials: int = 1, level: float = LEVEL) -
     (6.63, 6.9)
     """
     if isfinite(freedom):
-        return surplus * float(f_distribution.isf(level / trials, surplus, freedom))
-    return float(chi2.isf(level / trials, surplus))
+        return surplus * float(fdtri(surplus, freedom, 1 - level / trials))
+    return float(chdtri(surplus, level / trials))
 
 
 def trials(chain: Chain, other: Chain, lines: int) -> int:

@@ -44,7 +44,7 @@ from enum import StrEnum
 from math import degrees, inf, isfinite, pi
 
 import numpy as np
-from scipy.stats import chi2 as chi2_distribution, f as f_distribution, norm
+from scipy.special import chdtri, fdtri, ndtri
 
 from disting.fit.search.cost import Cost
 from disting.fit.search.joint import AnyCost
@@ -224,8 +224,8 @@ def _critical(level: float, own_scatter: Scatter, count: int = 0) -> float:
     """Mean square of `count` residuals, of all where it is 0, that noise exceeds so rarely."""
     count = count or 2 * len(own_scatter.rho)
     if isfinite(own_scatter.freedom):
-        return float(f_distribution.isf(level, count, own_scatter.freedom))
-    return float(chi2_distribution.isf(level, count)) / count
+        return float(fdtri(count, own_scatter.freedom, 1 - level))
+    return float(chdtri(count, level)) / count
 
 
 def needed_lines(n_parameters: int) -> int:
@@ -278,7 +278,7 @@ def systematic_share(residual: Real, missed: Real) -> float:
     halves = (kept / np.maximum(used, 1.0)).reshape(2, -1)
     power = float(np.sum(halves**2))
     share = float(np.sum(halves[:, 1:] * halves[:, :-1])) / power if power else 0.0
-    return share if share > norm.isf(CHANCE) / np.sqrt(residual.size) else 0.0
+    return share if share > -ndtri(CHANCE) / np.sqrt(residual.size) else 0.0
 
 
 def line_frequencies(cost: AnyCost) -> Real:

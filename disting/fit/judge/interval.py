@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 from math import exp, inf, isfinite, log, sqrt
 
 import numpy as np
-from scipy.stats import t as t_distribution
+from scipy.special import stdtrit
 
 from disting.fit.judge.admissible import FROM_ZERO
 from disting.fit.judge.candidate import OUTSIDE, Candidate, values_of
@@ -76,7 +76,7 @@ def intervals(
     values that give the same response.
     """
     values, errors = candidate.estimate.parameters, candidate.practical.relative_errors
-    wide = float(t_distribution.isf(OUTSIDE / 2, scatter.freedom))
+    wide = -float(stdtrit(scatter.freedom, OUTSIDE / 2))
     intervals = {n: _about(values[n], wide * e) for n, e in errors.items()}
     about = _likelihood(candidate, task, scatter)
     if any(e > STRAIGHT for e in errors.values()):

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 from math import exp, inf, isfinite, log
 
 import numpy as np
-from scipy.stats import t as t_distribution
+from scipy.special import stdtrit
 
 from disting.fit.judge.candidate import OUTSIDE
 from disting.fit.judge.exclusion import FELT, limit
@@ -105,7 +105,7 @@ def network_intervals(
     and the standard deviations of their logarithms, infinite where these are not determined.
     """
     freedom = whitened.known.freedom
-    wide = float(t_distribution.isf(OUTSIDE / 2, freedom))
+    wide = -float(stdtrit(freedom, OUTSIDE / 2))
     lowest = float(whitened.total(plant.response(best[None]))[0])
     count = max(whitened.n_residuals - len(best), 1)
     felt, growth = _effect_of_values(plant, whitened, best)

@@ -50,7 +50,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
-from scipy.stats import norm
+from scipy.special import ndtri
 
 from disting.fit.judge.candidate import Candidate, Scatters, values_of
 from disting.fit.judge.exclusion import LEVEL, limit
@@ -104,7 +104,7 @@ def _near_bases(
     )
     near = dict[str, LookAlike]()
     for cost, there in fits:
-        if np.sqrt(cost) <= norm.isf(LEVEL):
+        if np.sqrt(cost) <= -ndtri(LEVEL):
             apart = float(np.max(np.abs(wanted / on_base(there, s) - 1)))
             text = text_on_base(there)
             near.setdefault(text, LookAlike(LookAlikeKind.ELASTIC_BASE, text, there, apart))

@@ -7,7 +7,7 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from disting.fit.judge.members import Member
 from disting.fit.judge.modes import oscillations, poles, zeros
@@ -140,7 +140,7 @@ def ellipse(root: complex, near: Sequence[complex]) -> Real:
     hertz, damping = np.array([_place(r) for r in near]).T
     sizes, axes = np.linalg.eigh(np.cov(np.log(hertz), damping))
     angle = np.linspace(0.0, 2 * pi, CORNERS)
-    circle = np.sqrt(chi2.isf(0.05, 2)) * np.stack([np.cos(angle), np.sin(angle)])
+    circle = np.sqrt(chdtri(2, 0.05)) * np.stack([np.cos(angle), np.sin(angle)])
     moved = axes @ (np.sqrt(np.maximum(sizes, 0.0))[:, None] * circle)
     centre = _place(root)
     return np.stack([centre[0] * np.exp(moved[0]), centre[1] + moved[1]])

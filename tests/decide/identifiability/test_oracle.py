@@ -30,7 +30,7 @@ def marked(cases):
 
 
 @pytest.mark.thin(1)
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(("n_masses", "damped", "number"), marked(SMALL))
 def test_number_of_solutions_modulo_a_prime(n_masses, damped, number):
     chain = Family(n_masses, damped)[number]

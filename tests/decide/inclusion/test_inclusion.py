@@ -132,6 +132,7 @@ def test_evidence_on_finite_elements_says_nothing_of_limits():
             Inclusions(image, closure)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize(
     ("n", "damped", "unknown"), [(3, False, 0), (3, True, 0), (4, False, 0), (4, True, 4)]

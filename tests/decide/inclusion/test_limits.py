@@ -61,7 +61,7 @@ def moved(row, s, numbers):
 
 
 @pytest.mark.full
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("row", ROWS)
 def test_limits_against_sympy(row):
     """The limit of the transfer function is of the form of the new row's, for chosen parameters."""

@@ -45,7 +45,7 @@ def receptance(row, numbers):
 
 
 @pytest.mark.thin(1)
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("row", COLLOCATED, ids=repr)
 def test_models_fulfil_the_equations_and_others_do_not(row):
     for k in range(3 if row.n_masses < 5 else 1):

@@ -102,7 +102,7 @@ def test_first_row_with_an_open_word():
 
 
 @pytest.mark.full
-@pytest.mark.sampled(11)
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("at_wall", [False, True])
 @pytest.mark.parametrize(
     ("n", "a", "b"),

@@ -178,7 +178,7 @@ def test_numbers_of_solutions(chain: Chain, count: int) -> None:
 
 
 @pytest.mark.full
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "chain",
     [
