@@ -42,7 +42,6 @@ from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.stats import ncx2
 
 from disting.conditions.inclusion import Inclusion
 from disting.errors import InputError
@@ -106,6 +105,8 @@ def _exceeding(limits: Real, freedom: int, noncentrality: Real) -> Real:
     chi_s(lambda) >= sqrt(lambda) + z, so the probability is 1 to double precision where sqrt(c)
     lies 40 below sqrt(lambda).
     """
+    from scipy.stats import ncx2  # takes a second to import
+
     is_certain = np.sqrt(noncentrality) - np.sqrt(limits) > BEYOND
     within = np.where(is_certain, 0.0, noncentrality)
     return np.where(is_certain, 1.0, ncx2.sf(limits, freedom, within))
