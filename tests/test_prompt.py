@@ -158,7 +158,10 @@ def test_lines_say_what_is_there(shown):
     assert lines["FrequencyResponse"] == "<FrequencyResponse: 60 lines, 5 to 200 Hz, acceleration>"
     assert lines["SizesCatalog"] == "<SizesCatalog: sizes-undamped, 117 models>"
     assert lines["NextCatalog"] == "<NextCatalog: next-3-damped, 3 groups>"
-    assert lines["MeasuredNetwork"] == "<MeasuredNetwork: 1=2; F1; S1 | as it is | inertia 1 at mass 1>"
+    assert (
+        lines["MeasuredNetwork"]
+        == "<MeasuredNetwork: 1=2; F1; S1 | as it is | inertia 1 at mass 1>"
+    )
     assert lines["Chain"] == "<Chain: 3:1 [1FS]=[2]=[3], damped, acceleration>"
 
 

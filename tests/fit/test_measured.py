@@ -10,13 +10,15 @@ import pytest
 from jsonschema import validate
 
 from disting import InputError
-from disting.files import Format, schema
+from disting.cli.fit_text import fit_text
+from disting.files import Format, json_text, schema
 from disting.fit import Case, FurtherResponse, Setup, read_model, select
 from disting.fit.judge.readings import outside, read_in_words
 from disting.fit.search.candidates import chosen_ports
 from disting.measurement import read
 from disting.model.chain import Chain
 from disting.report.fit import fit_page
+from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
 from tests.cli.process import called
 from tests.fit.drives import OMEGA, response
@@ -72,6 +74,21 @@ def test_the_page_asks_for_it_first_and_gives_no_values(speed):
     assert "--quantity velocity" in page and "explains" not in page
     for word in ("95 %", "k12", "stiffness"):
         assert word not in page
+
+
+def test_neither_text_nor_notebook_nor_file_of_it_gives_values(speed, tmp_path):
+    lines, file = list(fit_text(speed, speed.task.cost.measured)), tmp_path / "fit.json"
+    assert speed.question in lines and any(line.startswith("no values are given") for line in lines)
+    for quantity in ("acceleration", "velocity"):
+        assert sum(line.startswith(f"{quantity} ") for line in lines) == 1  # of the table
+        assert any(f"--quantity {quantity}" in x for x in lines[lines.index("next:") :])
+    shown = speed._repr_html_()
+    assert speed.question in shown and shown.count("<tr>") == 3
+    for text in ("\n".join(lines), shown):
+        assert "explains" not in text and "k12" not in text
+    file.write_text(json_text(selection_to_dict(speed)))
+    with pytest.raises(InputError, match="do not determine which quantity"):
+        read_model(file)
 
 
 @pytest.mark.slow

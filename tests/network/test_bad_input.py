@@ -175,7 +175,7 @@ def test_a_network_that_is_none_is_refused(arguments, said):
     ("entry", "said"),
     [
         ({"circuit": "1=2; F1; S1"}, 'is not a circuit: write it as "network"'),
-        ({"network": "1=2; F1; S1", "notation": "x"}, '"notation" is one of .*, not \'x\''),
+        ({"network": "1=2; F1; S1", "notation": "x"}, "\"notation\" is one of .*, not 'x'"),
         (
             {"elements": [["R1", 1, 0]], "port": 1, "force": 1},
             '"port" is both input and output: remove "force"',

@@ -9,14 +9,17 @@ from pathlib import Path
 
 import pytest
 
+from disting.cli.fit_text import fit_text
 from disting.errors import InputError
 from disting.export import read_model
 from disting.files import __version__
+from disting.fit.judge.admissible import Rule
 from disting.fit.judge.modes import physical
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
+from disting.model.chain import text_drawing
 from disting.model.names import name_of
 from disting.report.fit import (
     collinearity_dots,
@@ -217,6 +220,17 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(
     assert "each line is predicted by a fit without it" in said
 
 
+def test_text_and_notebook_say_why_nothing_is_admissible(
+    nothing: Selection, train: FrequencyResponse
+) -> None:
+    lines = list(fit_text(nothing, train))
+    why = lines[: lines.index("more excitation or wider --thresholds may help")]
+    for candidate in nothing.candidates[:8]:
+        drawn = text_drawing(candidate.chain)
+        assert f"  {drawn}: {'; '.join(candidate.reasons)}" in why
+    assert "No candidate is admissible." in nothing._repr_html_()
+
+
 def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
     excess = [
         max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)
@@ -280,6 +294,11 @@ def test_structures_that_no_data_can_tell_apart_are_named(starts: FigureFiles) -
     )
     assert "2 masses, force 1, sensor 2, dampers b1, b2." in said
     assert "1 fit saved" in said and "None: each of" not in said
+    lines = list(fit_text(found, train))
+    same = next(
+        i for i, line in enumerate(lines) if line.startswith("each of these gives the same")
+    )
+    assert lines[same + 1].startswith("  2 masses, force 1, sensor 2, damper b")
 
 
 def test_no_alternatives_are_said_so(outline: Outline) -> None:
@@ -304,6 +323,12 @@ def test_what_no_data_determine_is_said_in_words() -> None:
     said = " ".join(Outline(page).text.split())
     determined = "ot identifiable: no data determine more than k12/d12, m1 + m2, k12/(m1*m2)"
     assert f"N{determined}. Known parameters" in said and "no, not identifiable" in said
+    none = select(train, [free], test=response(1, 3, 2, free), rule=Rule.PAPER)
+    lines = list(fit_text(none, train))
+    assert none.selected is None
+    assert lines[lines.index("more excitation or wider --thresholds may help") + 1].startswith(
+        "not identifiable: only known parameters (--fix NAME=VALUE)"
+    )
     assert "∞" not in said and not re.search(r"\binf\b", said)
     (plain,) = json.loads(json.dumps(selection_to_dict(found), allow_nan=False))["candidates"]
     assert plain["unidentifiable"] == f"n{determined}" and plain["condition_index"] is None
