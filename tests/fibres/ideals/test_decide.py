@@ -238,7 +238,7 @@ def test_degrees_beyond_the_codes_are_too_large():
 def test_a_contradiction_that_takes_too_long_is_not_seen():
     a, b = model(3, 1), model(3, 6)
     assert is_empty(a, b, equal_rank=True, label="again", limits=Limits())
-    with pytest.raises(NotSeenError, match="not found again .too large: a matrix of"):
+    with pytest.raises(NotSeenError, match=r"not found again .too large: a matrix of"):
         is_empty(a, b, equal_rank=True, label="again", limits=Limits(entries=1))
 
 
