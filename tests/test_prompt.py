@@ -22,6 +22,7 @@ from disting import (
     ModelList,
     Quantity,
     Query,
+    Relation,
     Settings,
     Store,
     View,
@@ -40,7 +41,10 @@ from disting import (
     verify,
 )
 from disting.catalogs.next_files import next_catalog
+from disting.catalogs.sizes import sizes_catalog
+from disting.experiments.measured_network import MeasuredNetwork
 from disting.fit import figure_1, plan, predict, select
+from disting.fit.judge.alternatives import Alternative
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.model.chain import text_drawing
 from disting.model.names import read_together
@@ -49,6 +53,7 @@ LONGEST = 120
 DRIVE = Chain(2, damped=True, ground_dampers=(1,))
 VALUES = {"m1": 0.02, "m2": 0.01, "k12": 500.0, "d12": 0.1, "b1": 0.3}
 OMEGA = 2 * np.pi * np.geomspace(5, 200, 60)
+ERRORS = np.full(60, 0.01)
 DATA = FrequencyResponse(OMEGA, predict(DRIVE, VALUES, OMEGA), input=("F", "N"))
 
 
@@ -98,8 +103,14 @@ def shown() -> list[object]:
         *listed.listings,
         *listed,
         explicit_map(family[2], family[5]),
+        next_catalog(3, damped=True),
         next_catalog(3, damped=True).further((1, 11)),
-        plan(DRIVE, VALUES, replace(DRIVE, ground_dampers=(2,)), OMEGA, np.full(60, 0.01)),
+        *next_catalog(3, damped=True).further((1, 11)).tables.values(),
+        sizes_catalog(damped=False),
+        MeasuredNetwork(network_of("1=2; F1; S1"), (Experiment(), Experiment(inertias={1: 1}))),
+        Alternative(DRIVE, Relation.UNDECIDED, "It is open."),
+        designed := plan(DRIVE, VALUES, replace(DRIVE, ground_dampers=(2,)), OMEGA, ERRORS),
+        designed.rival,
         DATA,
         TimeSeries(np.sin(np.arange(99.0)), np.cos(np.arange(99.0)), 1000.0),
         found,
@@ -145,6 +156,12 @@ def test_lines_say_what_is_there(shown):
     )
     assert lines["Selection"] == "<Selection: 2:1+b1 of 24 candidates, 1 not excluded>"
     assert lines["FrequencyResponse"] == "<FrequencyResponse: 60 lines, 5 to 200 Hz, acceleration>"
+    assert lines["SizesCatalog"] == "<SizesCatalog: sizes-undamped, 117 models>"
+    assert lines["NextCatalog"] == "<NextCatalog: next-3-damped, 3 groups>"
+    assert (
+        lines["MeasuredNetwork"]
+        == "<MeasuredNetwork: 1=2; F1; S1 | as it is | inertia 1 at mass 1>"
+    )
     assert lines["Chain"] == "<Chain: 3:1 [1FS]=[2]=[3], damped, acceleration>"
 
 

@@ -330,6 +330,7 @@ def build_sizes(
     damped: bool,
     engine: Engine,
     folder: Path | None = None,
+    sizes: Sequence[int] = SHIPPED_SIZES,
     executor: Executor | None = None,
     progress: Progress = silent,
 ) -> str:
@@ -338,13 +339,13 @@ def build_sizes(
     Verdicts on pairs of one size are taken from the catalogues of the sizes (of a folder, or the
     shipped ones).
     """
-    for n in SHIPPED_SIZES:
+    for n in sizes:
         stored = catalog(n, damped=damped, folder=folder)
         if stored.record(0)["settings"] == engine.settings.to_dict():
             for parts in answers_in(stored):
                 engine.remember(*parts)
     decisions = combine(
-        SHIPPED_SIZES,
+        sizes,
         damped=damped,
         query=Query(View.EXACT),
         engine=engine,

@@ -30,7 +30,6 @@ STATUS = (
     "exit status: 0 fine, 1 a failed verification or a fit that explains nothing,\n"
     "2 bad usage or bad input, 3 a verdict that cannot be checked alone"
 )
-HELP_WIDTH = 78
 Subparsers = Any  # the object that argparse gives for sub-commands has no public type
 
 
@@ -112,14 +111,10 @@ class _Parser(argparse.ArgumentParser):
             self.add_argument("--help-all", action=_HelpAll, nargs=0, help=text)
 
     def _show_examples(self, examples: Sequence[str]) -> None:
-        """End the help with them; other ends follow, wrapped if they were."""
+        """End the help with them; other ends follow, which no parser wraps."""
         if not examples:
             return
         end = self.epilog or ""
-        if end and self.formatter_class is argparse.HelpFormatter:
-            from textwrap import fill
-
-            end = fill(end, HELP_WIDTH)
         self.formatter_class = argparse.RawDescriptionHelpFormatter
         shown = "\n".join(["examples:", *(f"  {line}" for line in examples)])
         self.epilog = f"{shown}\n\n{end}".rstrip()

@@ -181,8 +181,9 @@ def spectra(record: TimeSeries, period: int, periods: int = 0) -> FigureFiles:
         panels[-1].set_xlabel("Frequency [Hz]")
         heading(figure, "Spectra of input and output")
         columns = 1 if is_narrow(figure) else 2
-        labels = panels[0].get_legend_handles_labels()
-        figure.legend(*labels, loc="outside lower center", ncols=columns)
+        every = (zip(*panel.get_legend_handles_labels(), strict=True) for panel in panels)
+        shown = {label: handle for pairs in every for handle, label in pairs}
+        figure.legend(shown.values(), shown, loc="outside lower center", ncols=columns)
 
     return draw_figure("spectra", "Amplitude spectra of input and output", (5.4, 5.6), draw)
 

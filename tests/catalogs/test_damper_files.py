@@ -19,6 +19,7 @@ from disting import (
     catalog,
     compare,
 )
+from disting.catalogs import next_files
 from disting.catalogs.build import (
     DECIDES,
     false_findings,
@@ -181,6 +182,17 @@ def test_the_command_writes_the_files(tmp_path, capsys):
             f" undecided; {together}"
         ),
     ]
+    assert main(["catalog", "settle", "2", "--catalog", str(tmp_path)]) == 0
+    assert capsys.readouterr().out.splitlines() == [  # nothing is undecided
+        "2 masses with dampers to the ground: 0 pairs of classes settled"
+    ]
+    stored = read(tmp_path, 2, True)
+    path = next_files.write(next_files.build_next(stored, Engine()), tmp_path)
+    found = next_files.read(tmp_path, 2, True, dampers=True)
+    assert path.name == "next-dampers-2-damped.jsonl"
+    named = {frozenset(found.named(i)[0] for i in group) for group in found.groups}
+    every = [{stored.text(stored.place(m)) for m in members} for members in stored.classes()]
+    assert named == {frozenset(group) for group in every if "+" in "".join(group)}
 
 
 @pytest.mark.full

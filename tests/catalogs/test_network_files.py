@@ -256,6 +256,23 @@ def test_what_can_be_determined_is_taken_over(name):
 
 @pytest.mark.sampled(1)
 @pytest.mark.full
+def test_what_a_part_shows_of_the_whole_is_taken_from_the_part():
+    """Two networks and the rest of one of them without a flow, out of a large family."""
+    whole = family_of("compartments-3")
+    numbers = (3, 12, 51)
+    names = [whole.networks[n - 1].name for n in numbers]
+    built = build_networks(replace(whole, source=lambda: names), Engine())
+    record = next(r for r in map(json.loads, built.splitlines()) if (r.get("left"), r.get("right")) == (1, 3))  # fmt: skip
+    _, *stored = read(shipped_folder() / f"{name_of(whole.name)}.jsonl")
+    known = next(r for r in stored if (r.get("left"), r.get("right")) == (3, 51))
+    finding = known["finding"]
+    assert record["finding"] == json.loads(finding.to_json())
+    assert (finding.evidence.kind, finding.evidence.missing) == ("of-part", ("a12",))
+    said = finding.evidence.sentence("A", "B")
+    assert said.startswith("E is B without a12, which gives an open set of")
+
+
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("group", "kinds"),
     [
@@ -395,6 +412,28 @@ def test_a_damaged_file_is_refused(damage, tmp_path):
     path.write_text(damage, encoding="utf-8")
     with pytest.raises(CatalogError, match="cannot be read"):
         recall("circuits-4", Engine(), tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        (lambda records: [records[0] | {"schema": 0}, *records[1:]], "another schema, or other"),
+        (lambda rows: [rows[0], rows[1] | {"network": "1>0"}, *rows[2:]], "or other networks"),
+        (
+            lambda records: [*records, records[-1] | {"left": 2, "right": 2}],
+            "no pair: 2, 2",
+        ),
+    ],
+    ids=["schema", "networks", "pair"],
+)
+def test_a_file_of_something_else_is_refused(changed, said, tmp_path):
+    name = f"{name_of('compartments-2')}.jsonl"
+    lines = (shipped_folder() / name).read_text(encoding="utf-8").splitlines()
+    records = changed([json.loads(line) for line in lines])
+    text = "".join(f"{json.dumps(record)}\n" for record in records)
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(CatalogError, match=said):
+        recall("compartments-2", Engine(), tmp_path)
 
 
 @pytest.mark.full

@@ -17,6 +17,7 @@ from disting.catalogs.next_files import (
     verify_next,
     write,
 )
+from disting.cli import main
 from disting.errors import CatalogError
 from disting.verdict.engine import Engine
 from disting.verdict.next_experiments import menu_for
@@ -118,6 +119,38 @@ def test_more_structures_are_never_told_apart_by_less():
                 assert {k for k in whole.kinds if whole.anywhere(k)} <= {
                     k for k in part.kinds if part.anywhere(k)
                 }
+
+
+@pytest.mark.full
+def test_the_command_writes_what_is_shipped(tmp_path, capsys):
+    assert main(["catalog", "next", "2", "--out", str(tmp_path), "--no-cache"]) == 0
+    names = [f"{name_of(2, damped)}.jsonl" for damped in (False, True)]
+    assert capsys.readouterr().out.split() == [str(tmp_path / name) for name in names]
+    for name in names:
+        assert (tmp_path / name).read_bytes() == (shipped_folder() / name).read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda header, rows: [header | {"schema": 0}, *rows], "another schema"),
+        (lambda header, rows: [header], "groups are missing"),
+        (lambda header, rows: [], "make it with 'disting catalog next 2'"),
+    ],
+    ids=["schema", "groups", "empty"],
+)
+def test_a_file_of_another_kind_is_refused(tmp_path, change, said):
+    path = shipped_folder() / f"{name_of(2, False)}.jsonl"
+    header, *rows = map(json.loads, path.read_text(encoding="utf-8").splitlines())
+    text = "".join(json.dumps(row) + "\n" for row in change(header, rows))
+    (tmp_path / path.name).write_text(text, encoding="utf-8")
+    with pytest.raises(CatalogError, match=said):
+        read(tmp_path, 2, False)
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(CatalogError, match=r"there is no .*next-2-damped.jsonl; make it with"):
+        read(tmp_path, 2, True)
 
 
 @pytest.mark.full

@@ -14,10 +14,12 @@ from disting.catalogs.files import lines, shipped_folder
 from disting.catalogs.sizes import (
     VIEWS,
     SizesCatalog,
+    build_sizes,
     combine,
     false_evidence,
     sizes_catalog,
     verify_sizes,
+    write,
 )
 from disting.conditions.inclusion import Sense
 
@@ -66,6 +68,49 @@ def test_small_sizes_are_as_computed_now(both: dict[bool, SizesCatalog], damped:
         assert stored.inclusions == now.inclusions
         assert found.relation(i + 1, j + 1) is now.relation
         assert stored.closure is computed.inclusion(i, j, Sense.CLOSURE)
+
+
+@pytest.mark.full
+@DAMPINGS
+def test_lines_of_small_sizes_are_those_of_the_file(
+    both: dict[bool, SizesCatalog], damped: bool, tmp_path: Path
+) -> None:
+    """Whatever else a file holds; the verdicts on pairs of one size are those of a folder."""
+    found, text = both[damped], build_sizes(damped=damped, engine=Engine(), sizes=(1, 2, 3))
+    path = write(text, damped, tmp_path / "new")
+    assert path.name == f"{found.name}.jsonl" and path.read_text(encoding="utf-8") == text
+    header, *rows = text.splitlines()
+    small = {"1:", "2:", "3:"}
+    stored = [r for r in found.records[1:] if {r["left"][:2], r["right"][:2]} <= small]
+    assert len(rows) == 1 * 3 + 1 * 11 + 3 * 11
+    assert "\n".join(rows) == lines(stored).strip()
+    assert json.loads(header) == dict(found.records[0]) | {"models": 15}
+
+
+@pytest.mark.full
+def test_a_folder_without_the_file_has_nothing_wrong(tmp_path: Path) -> None:
+    assert verify_sizes(damped=False, folder=tmp_path, engine=Engine()) == []
+
+
+@pytest.mark.full
+def test_a_file_without_its_end_is_refused(both: dict[bool, SizesCatalog], tmp_path: Path) -> None:
+    text = lines([dict(r) for r in both[False].records[:-1]])
+    (tmp_path / "sizes-undamped.jsonl").write_text(text, encoding="utf-8")
+    with pytest.raises(CatalogError, match="pairs are missing"):
+        sizes_catalog(folder=tmp_path, known=both[False].catalogs, damped=False)
+
+
+@pytest.mark.full
+def test_a_verdict_that_is_damaged_behind_its_relation_is_refused_when_it_is_read(
+    both: dict[bool, SizesCatalog],
+) -> None:
+    records = list(both[False].records)
+    records[1] = {**records[1], "tf": {**records[1]["tf"], "evidence": {"kind": "?"}}}
+    damaged = SizesCatalog(both[False].catalogs, records)
+    assert damaged.relation(1, 2) is Relation.DISTINGUISHABLE
+    with pytest.raises(CatalogError, match=r"1:1 and 2:1 cannot be read .*disting catalog sizes"):
+        damaged.verdict(1, 2)
+    assert damaged.verdict(1, 3) == both[False].verdict(1, 3)
 
 
 @pytest.mark.full

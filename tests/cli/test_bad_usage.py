@@ -60,6 +60,13 @@ WORDS = [
         "remove one of them",
     ),
     (("equivalents", "99:1", "--to", "3:1", "--set", "m1=1"), "at most 40 masses"),
+    (("equivalents", "R1-C1", "--to", "R1-C1", "--also", "sensor=2"), "--also is not supported"),
+    (
+        ("equivalents", "R1-C1", "--to", "R1-C1", "--formulas", "--set", "R1=1,C1=1"),
+        "formulas hold for any values: remove --set",
+    ),
+    (("equivalents", "3:1", "--family", "circuits-4"), "--family is supported for networks only"),
+    (("fit", "a.csv", "b.csv", "--repeat", "c.csv"), "--repeat is for a single file"),
     (("simulate", "--seed", "-1"), "at least 0"),
     (("simulate", "--quantum", "nan"), "finite and not negative"),
     (("simulate", "--samples", "99999999999"), "not enough memory"),

@@ -81,6 +81,21 @@ def test_formulas_in_three_languages():
     assert "equivalent" in space
 
 
+def test_formulas_of_larger_chains_are_checked_with_a_bound():
+    said = called("equivalents", "4:1", "--to", "4:29", "--damped", "--formulas").stdout
+    assert "; identity of the transfer functions checked, probability of error at most 2^-" in said
+    said = called("equivalents", "3:1", "--to", "3:11", "--damped", "--formulas").stdout
+    assert "; identity of the transfer functions proven" in said
+
+
+def test_a_ratio_that_all_springs_share_is_said_to_be_special():
+    values = "m1=1,m2=2,m3=3,k12=100,k23=70,d12=1"
+    arguments = "3:1", "--to", "3:11", "--damped", "--set", values, "--set"
+    said = "All springs have the same ratio k/d here; other ratios may rule out some of these."
+    assert called("equivalents", *arguments, "d23=0.7").stdout.rstrip().endswith(said)
+    assert said not in called("equivalents", *arguments, "d23=0.8").stdout
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -64,7 +64,17 @@ def bench(tmp_path_factory):
         "late": written(folder / "late.csv", late),
         "locked": written(folder / "locked.csv", locked),
         "heavier": written(folder / "heavier.csv", heavier),
+        "record": record(folder / "record.csv"),
     }
+
+
+def record(path: Path) -> Path:
+    """Samples of a torque and of what two sensors show."""
+    samples = np.random.default_rng(0).normal(size=(400, 3))
+    table = np.column_stack([np.arange(400) / 1000, samples])
+    header = "t [s],torque [Nm],motor [rad],load [rad]"
+    np.savetxt(path, table, delimiter=",", header=header, comments="")
+    return path
 
 
 def fitted(*arguments, status=0):
@@ -200,6 +210,15 @@ REFUSED = [
     ),
     (["motor", "--experiment", "{locked}"], "an experiment is written FILE:lock=2"),
     (["motor", "--experiment", "{locked}:torque=2"], "an experiment is written FILE:lock=2"),
+    (["motor", "--experiment", "{locked}:column=2"], "an experiment is written FILE:lock=2"),
+    (
+        ["both", "--sensor", "1,2", "--column", "1,2,3"],
+        "column is given for 3 responses, but there are 2",
+    ),
+    (
+        ["record", "--sensor", "1,2"],
+        "record.csv: name the response of each sensor, as --read output=a,b",
+    ),
     (["motor", "--experiment", "nowhere.csv:lock=2"], "there is no file nowhere.csv"),
     (["motor", "load", "--sensor", "1,2", "--family"], "--family moves the sensor and is not"),
     (["both", "--sensor", "1,2", "--test", "{motor}"], "motor.csv holds 1 response"),

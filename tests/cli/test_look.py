@@ -11,7 +11,8 @@ from jsonschema import Draft202012Validator
 
 from disting.cli.terminal_plot import ASCII, UNICODE, bode_lines, curve, nyquist_lines
 from disting.files import Format, schema
-from disting.measurement import look
+from disting.measurement import TimeSeries, look
+from disting.report.look import look_figures, spectra
 from tests.cli.process import COMMAND, called
 
 
@@ -173,6 +174,35 @@ def test_names_of_a_file_are_escaped_on_the_page(tmp_path):
     called("look", path, "--out", tmp_path / "out")
     page = (tmp_path / "out" / "look.html").read_text()
     assert "<b>x" not in page and "Re &lt;b&gt;x" in page
+
+
+@pytest.mark.full
+def test_an_impedance_is_drawn_in_the_complex_plane(tmp_path):
+    path = tmp_path / "cell.csv"
+    rows = [f"{f},{5 + 1 / f},{-1 / f}" for f in range(1, 21)]
+    path.write_text("\n".join(["freq/Hz,Re(Z)/Ohm,Im(Z)/Ohm", *rows, ""]))
+    (figure,) = look_figures(look(path))
+    assert (figure.name, figure.title) == ("nyquist", "Nyquist diagram of 20 measured lines")
+    assert {"Re Z [ohm]", "−Im Z [ohm]", "measured, 95 % bars"} <= set(texts(figure))
+
+
+@pytest.mark.full
+@pytest.mark.parametrize(
+    ("periods", "said"),
+    [(0, {"whole record"}), (3, {"mean of 3 periods", "scatter of that mean"})],
+)
+def test_spectra_of_a_record_are_those_of_its_periods(periods, said):
+    source = np.random.default_rng(0)
+    u = np.tile(source.normal(size=200), 3)
+    record = TimeSeries(u, u + 0.01 * source.normal(size=600), 1000.0)
+    shown = set(texts(spectra(record, 200 if periods else 0, periods)))
+    labels = {"whole record", "mean of 3 periods", "scatter of that mean"}
+    assert {"Input", "Output", "Frequency [Hz]"} <= shown and shown & labels == said
+
+
+def texts(figure):
+    """Letters are outlines; beside them each text stands as a comment."""
+    return re.findall("<!-- (.*?) -->", figure.svg.decode())
 
 
 def dots(rows):

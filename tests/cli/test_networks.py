@@ -42,6 +42,24 @@ def test_what_is_mostly_inductive_is_not_turned(tmp_path):
     assert "-Im" not in done.stderr
 
 
+def test_each_response_of_several_has_its_file(tmp_path):
+    words = "1~2; F1; S1 S2", "--set", "m1=1,m2=1,k12=1000", "--samples", "500"
+    done = called("simulate", *words, "--csv", tmp_path / "frf.csv")
+    assert done.returncode == 0, done.stderr
+    (omega, first), (_, second) = (
+        responses((tmp_path / f"frf-{k}-1.csv").read_text(encoding="utf-8")) for k in (1, 2)
+    )
+    np.testing.assert_allclose(first / second, 1 - omega**2 / 1000, rtol=1e-6)
+
+
+def test_a_model_of_a_file_that_is_no_network_is_not_fitted(tmp_path):
+    file = tmp_path / "models.json"
+    file.write_text('{"models": [{"name": "lag", "G": "a/(s + b)"}]}', encoding="utf-8")
+    done = called("fit", "none.csv", "--models", file)
+    assert done.returncode == 2
+    assert "lag is not a network: describe it by its elements" in done.stderr
+
+
 @pytest.mark.slow
 def test_all_sensors_are_simulated_and_fitted(tmp_path):
     """One file for each sensor; a fit of an undamped machine to them begins anywhere."""
@@ -291,6 +309,24 @@ def test_formulas_in_three_languages():
     space = {}
     exec(source, space)
     assert sorted(space["equivalent"]) == ["C1", "C2", "C3", "R0", "R1", "R2", "R3"]
+
+
+def test_exponents_are_named_beside_the_verdict():
+    done = called("equivalents", "R0-p(R1,P1)", "--to", "p(R0,R1-P1)")
+    assert done.stdout.splitlines()[1:] == [
+        "p(R0,R1-P1)  indistinguishable (equivalents with positive parameters)",
+        "  n1 = n1",
+    ]
+
+
+@pytest.mark.full
+def test_what_is_the_same_for_some_values_only_has_no_formulas():
+    one, other = "1>0, 1>2, 3>1; in 3; out 2", "1>2, 1>3, 2>1, 3>2; in 2; out 3"
+    done = called("equivalents", one, "--to", other, "--formulas")
+    head, blank, line = done.stdout.splitlines()
+    assert head.endswith("0 of 1 other network equivalent for all positive values, 1 for some, 0 undecided")  # fmt: skip
+    assert not blank and line.startswith(f"{other}: ")
+    assert line.endswith("(no formulas; --set gives values)")
 
 
 @pytest.mark.full

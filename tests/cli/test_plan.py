@@ -89,6 +89,17 @@ def test_indistinguishable_pair_is_impossible_and_next_is_named():
     assert "are indistinguishable over positive parameters" in verdict
 
 
+def test_a_plan_without_anything_to_measure_is_not_written(tmp_path):
+    """Lines that scatter much are said to give a rough estimate before."""
+    values = "m1=1,m2=2,m3=3,k12=100,k23=50,d12=0.1,d23=0.3"
+    words = "--damped", "--set", values, "--noise", "0.6", "--band", "0.1..10"
+    done = called("plan", "3:1", "3:11", *words, "--out", tmp_path / "plan")
+    rough, refusal = done.stderr.splitlines()
+    assert "lines scatter by more than" in rough and "the power is a rough estimate" in rough
+    assert refusal.endswith("there is nothing to measure, so nothing is written: remove --out")
+    assert done.returncode == 2 and not (tmp_path / "plan").exists()
+
+
 @pytest.mark.full
 def test_noise_of_a_measured_response_is_taken_line_by_line(tmp_path):
     exact = response(MODEL, NUMBERS)

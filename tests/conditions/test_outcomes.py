@@ -12,6 +12,7 @@ from disting import (
     Engine,
     Family,
     Finding,
+    Inclusion,
     Outcome,
     Query,
     Relation,
@@ -23,6 +24,7 @@ from disting.behaviour.chain_model import ChainModel
 from disting.behaviour.profile import NoMatroid, profile
 from disting.behaviour.sample import Representation
 from disting.conditions import sufficient
+from disting.conditions.inclusion import InclusionFinding, Inclusions, inclusions_from_dict
 from disting.conditions.necessary import (
     condition_1,
     condition_2,
@@ -477,6 +479,16 @@ def test_every_condition_reports_under_its_own_number():
 def test_a_finding_is_neither_true_nor_false():
     with pytest.raises(TypeError, match="outcome"):
         bool(Finding(INVARIANTS, HOLDS))
+
+
+def test_nor_is_one_on_an_inclusion():
+    unknown = InclusionFinding(Inclusion.UNKNOWN, None)
+    with pytest.raises(TypeError, match="use its inclusion"):
+        bool(unknown)
+    with pytest.raises(TypeError, match="use image and closure"):
+        bool(Inclusions(unknown, unknown))
+    with pytest.raises(TypeError, match="both statements are dictionaries"):
+        inclusions_from_dict({"closure": "unknown"})
 
 
 @pytest.mark.parametrize(("certainty", "safety"), [(Certainty.PROVEN, 5), (Certainty.THEOREM, 1)])

@@ -19,7 +19,7 @@ from disting.evidence.kinds import (
     evidence_from,
     inclusion_evidence_from,
 )
-from disting.evidence.limits import LargerProjection
+from disting.evidence.limits import LargerProjection, Minor, MissingElements, RelativeDegrees
 from disting.evidence.positive import EmptyFibre, Interlacing, PositiveEvidence, RowWords
 
 UNIONS = [set(get_args(union)) for union in (Evidence, InclusionEvidence, PositiveEvidence)]
@@ -110,6 +110,22 @@ def test_what_belongs_to_another_statement_is_refused():
 def test_files_have_this_form_and_it_is_read_back(found, plain):
     assert found.to_dict() == plain
     assert read(plain, set.union(*UNIONS)) == found
+
+
+def test_limits_have_their_formulas():
+    assert MissingElements(True, ((0, 0), (1, 2))).formula == "0 → 0, 1 → 2"
+    assert Minor(True, ((1, 1), (3, 2)), ("k12",), ()).formula == "1 → 1, 3 → 2"
+    assert Minor(True, (), ("k12",), ("k23",)).formula == "k12 missing, k23 rigid"
+    steep = "deg D₂ − deg N₂ ≥ 4 > 2 = deg D₁ − deg N₁"
+    assert RelativeDegrees(True, 4, 2).formula == RelativeDegrees(False, 2, 4).formula == steep
+    assert RelativeDegrees(True, 2, 4).formula == "deg D₂ − deg N₂ = 2 < 4 ≤ deg D₁ − deg N₁"
+
+
+def test_steps_that_are_no_list_are_refused():
+    plain = ByRows(True, (RowStep("free", "free", Vanishing(2)),)).to_dict()
+    assert ByRows.from_dict(plain).to_dict() == plain
+    with pytest.raises(TypeError, match="the steps are a list"):
+        ByRows.from_dict(plain | {"steps": "free"})
 
 
 def test_a_name_that_no_theorem_has_is_refused():

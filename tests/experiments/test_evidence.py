@@ -5,10 +5,10 @@ from itertools import combinations
 
 import pytest
 
-from disting import Experiment, Family, Query, Settings, Verdict, View, compare, prove
+from disting import Certainty, Experiment, Family, Query, Settings, Verdict, View, compare, prove
 from disting.evidence.decision import FibreUnder
 from disting.evidence.ideals import Refutation, Solutions
-from disting.evidence.positive import OnlyOne
+from disting.evidence.positive import BothWays, OnlyOne, Points, PositiveFinding, Share
 from disting.experiments.exact import LIMITS, by_ideals, exact_finding, positive_finding
 from disting.experiments.experiment import MeasuredChain
 from disting.experiments.listing import by_list
@@ -117,6 +117,30 @@ def test_over_positive_parameters_points_of_one_kind_prove_nothing():
     found = compare(U[1], U[4], experiments=[AS_IT_IS, pair])
     assert found.relation.value == "undecided"
     assert "over complex parameters they are indistinguishable" in found.sentence
+
+
+def test_points_that_are_not_of_two_kinds_are_no_evidence():
+    """Whatever a file says of them: the equivalents at both points are listed again."""
+    left, right = inertia(1, 3)
+    at = tuple((name, "1") for name in A[2].parameters)
+    nowhere, negative = (*at[1:], ("x", "1")), (*at[1:], (at[0][0], "-1"))
+    for one, other in ((at, at), (nowhere, at), (negative, at), (at, nowhere)):
+        said = PositiveFinding(Share.SOMETIMES, Certainty.BOUNDED, 100, Points(one, other))
+        assert not confirms(BothWays(said, PositiveFinding(Share.UNKNOWN)), left, right)
+
+
+def test_shares_of_single_experiments_are_checked_again():
+    """That transfer functions decay differently, or that an equivalent is the only one."""
+    left, right = (measured(U[n], Experiment(locked=3)) for n in (1, 2))
+    never = positive_finding(left, right, Settings())
+    either = BothWays(never, PositiveFinding(Share.UNKNOWN))
+    assert confirms(either, left, right)
+    assert not confirms(either, left, left)
+    assert not confirms(replace(either, left=replace(never, share=Share.SOMETIMES)), left, right)
+    only = PositiveFinding(Share.ALWAYS, Certainty.THEOREM, 0, OnlyOne(3))  # of two experiments
+    assert not confirms(replace(either, left=only), left, right)
+    alone = replace(only, evidence=OnlyOne(2))  # with a lock it is none of the class
+    assert not confirms(replace(either, left=alone), left, right)
 
 
 def test_no_positive_equivalents_in_one_experiment_are_none_in_all():

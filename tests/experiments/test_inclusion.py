@@ -104,6 +104,24 @@ def test_a_shorter_chain_is_a_limit_of_a_longer_one():
     assert compare(long, short, experiments=further, query=EXACT).closure is Inclusion.RIGHT_IN_LEFT
 
 
+def test_ranks_under_experiments_are_evidence_that_is_checked():
+    """Of the rows of one experiment, or of as many as can be chosen freely."""
+    family, used = Family(3, damped=False), (Experiment(), Experiment(sensor=2))
+    left, right = (MeasuredChain(family[n], used) for n in (2, 8))
+    found = inclusions_under(left, right, profile_of).closure
+    assert found.inclusion is Inclusion.NEITHER and found.evidence.kind == "larger-projection"
+    assert confirms_inclusion(found.evidence, left, right)
+    for changes in ({"rows": ("b0[3]",)}, {"left": found.evidence.left + 1}):
+        assert not confirms_inclusion(replace(found.evidence, **changes), left, right)
+    locked = (Experiment(), Experiment(locked=1))
+    larger, smaller = (MeasuredChain(family[n], locked) for n in (1, 2))
+    full = inclusions_under(larger, smaller, profile_of).closure
+    assert full.inclusion is Inclusion.RIGHT_IN_LEFT and full.evidence.kind == "full-image"
+    assert confirms_inclusion(full.evidence, larger, smaller)
+    for changes in ({"left_is_larger": False}, {"rank": full.evidence.rank + 1}):
+        assert not confirms_inclusion(replace(full.evidence, **changes), larger, smaller)
+
+
 @pytest.mark.full
 def test_one_experiment_that_determines_more_excludes():
     """Alone the left model has the larger rank in one experiment, together the smaller one."""

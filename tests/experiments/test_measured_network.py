@@ -184,6 +184,10 @@ def test_a_sensor_that_does_not_move_adds_nothing():
 def test_what_cannot_be_measured_is_refused(models, also, sentence):
     with pytest.raises(InputError, match=sentence):
         compare_everywhere(*models, [also])
+    with pytest.raises(InputError, match="at least one experiment is needed"):
+        MeasuredNetwork(network_of(STAR), ())
+    with pytest.raises(InputError, match="experiments are on machines"):
+        MeasuredNetwork(network_of("R0-p(R1,C1)"), (Experiment(),))
 
 
 @pytest.mark.full

@@ -9,7 +9,7 @@ import pytest
 import sympy
 from hypothesis import given, settings, strategies as st
 
-from disting import Family, View
+from disting import Chain, Family, View
 from disting.catalogs import catalog
 from disting.cli.run import main
 from disting.errors import InputError
@@ -20,7 +20,7 @@ from disting.model.kinds import ALL_KINDS, CIRCUIT_KINDS, COMPARTMENT_KINDS, KIN
 from disting.network import network_of
 from disting.network.chains import of_chain
 from disting.verdict.engine import Engine
-from disting.verdict.next_experiments import menu_for
+from disting.verdict.next_experiments import menu_for, next_experiments
 from disting.verdict.next_words import rows
 from disting.verdict.result import Relation
 
@@ -225,6 +225,19 @@ def test_networks_without_a_menu_in_common(engine):
     pair = [(t, network_of(t)) for t in ("1~2; F1; S1", "p(R1,C1)")]
     with pytest.raises(InputError, match="one kind"):
         menu_for(pair, engine)
+
+
+def test_structures_that_are_no_group_are_refused(engine):
+    machine = "1~2; F1; S1"
+    for texts, said in (
+        ([machine, machine], "1~2; F1; S1 is named twice"),
+        (["3:1", "1~2~3; F1; S1"], "chains and networks are on different menus"),
+    ):
+        with pytest.raises(InputError, match=said):
+            next_experiments(texts, damped=False, engine=engine)
+    chains = [(str(k), Chain(3, quantity=q)) for k, q in enumerate(("velocity", "position"))]
+    with pytest.raises(InputError, match="different numbers of masses or sensor quantities"):
+        menu_for(chains, engine)
 
 
 def test_every_kind_has_its_words():

@@ -1,5 +1,6 @@
 """Structures that contain others: the relation, the limit in numbers, and what a fit makes of it."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -7,13 +8,19 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from disting.decide.inclusion.profiles import by_elements
+from disting.fit.judge.candidate import observed_scatters
+from disting.fit.judge.choice import _from_limit, check_left, limit_in, searched_again
 from disting.fit.search.candidates import figure_1, reference
 from disting.fit.search.containment import contains, embeddings
+from disting.fit.search.cost import Case, Cost
+from disting.fit.search.estimate import Task
 from disting.fit.search.starts import scale
+from disting.fit.select import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
+from disting.model.question import Settings
 from disting.network import network_of
-from tests.fit.drives import OMEGA, dense_response, truth
+from tests.fit.drives import OMEGA, dense_response, response, truth
 
 FREE = figure_1()  # force and sensor at mass 1
 
@@ -135,3 +142,27 @@ def test_near_the_limit_the_larger_chain_has_the_response_of_the_smaller_one(pai
             own = [dense_response(large, near, s) for s in some]
             apart.append(np.abs(np.array(own) / wanted - 1).max())
     assert min(apart) < 1e-3
+
+
+@pytest.mark.full
+def test_a_search_that_failed_begins_again_at_the_limit():
+    """Or ends there, with all that the contained structure shows."""
+    small, large = (Chain(1, damped=True, ground_dampers=(1,), lag=lag) for lag in (False, True))
+    data = response(small, {"m1": 0.01, "b1": 0.5}, noise=0.01)
+    fitted = {c.chain: c for c in select(data, [small, large], case=Case.LOGARITHM).candidates}
+    contained, task = fitted[small], Task(Cost(data))
+    known = observed_scatters([c.estimate for c in fitted.values()], task, None)
+    far = replace(fitted[large], chi2=1e6, chi2_apart=1e6, worst_apart=1e6)
+    assert not far.explains(known[1]) and contained.explains(known[1])
+    with pytest.raises(AssertionError, match=r"contains .*, which is left, and is not left"):
+        check_left([contained], [contained, far], task, known)
+    again = searched_again([contained], [contained, far], task, None, known, Settings())
+    assert set(again) == {large} and again[large].explains(known[1])
+    assert again[large].j_train <= contained.j_train * 1.001
+    limit = limit_in(large, contained, task, known[0])
+    _, there = _from_limit(far, contained, limit, task, None, known, Settings())
+    assert list(there.estimate.parameters.values()) == limit.tolist()
+    assert there.chi2 == contained.chi2 and there.residual is contained.residual
+    held = replace(task, bounds={"T1": (0.01, 1.0)})  # away from the limit
+    assert limit_in(large, contained, held, known[0]) is None
+    assert limit_in(small, fitted[large], task, known[0]) is None

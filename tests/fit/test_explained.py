@@ -21,6 +21,7 @@ from disting.fit.judge.explanation import (
     systematic_share,
     yardsticks,
 )
+from disting.fit.judge.readings import _misread, _places
 from disting.fit.search.candidates import figure_1
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
@@ -180,6 +181,26 @@ def test_a_lead_that_does_not_explain_the_data_is_none(data):
     said = " ".join(suspicions(found))
     assert found.readings == () and "closed loop" not in said
     assert "no further mass explains it: is the machine a chain" in said
+
+
+def test_other_places_of_a_chain_with_a_damper_across_its_gap_are_on_chains_without_one():
+    """Data that such a chain does not explain are judged, not refused."""
+    across = Chain(2, 1, 1, 2, 1, 2, damped=True, gap_damper=True)
+    others = dict(_places(across))
+    assert [*others] == [
+        f"with the force at mass 1 and the sensor at mass {place} of 2" for place in (1, 2)
+    ]
+    assert not any(chain.gap or chain.gap_damper for chain in others.values())
+
+
+def test_a_gain_without_a_unit_may_be_one_in_decibels():
+    loud = 1e3 * EXACT
+    level = 20 * np.log10(np.abs(loud)) * loud / np.abs(loud)
+    data = FrequencyResponse(OMEGA, level, doubts=(ASSUMED_LINEAR,))
+    words = "with gains in dB (--unit magnitude=dB)"
+    assert dict(_misread(data))[words] == pytest.approx(loud)
+    assert words not in dict(_misread(replace(data, doubts=())))
+    assert words not in dict(_misread(replace(data, G=20 * level)))  # 10^40 is no response
 
 
 @pytest.mark.full
@@ -353,6 +374,17 @@ def test_what_is_missed_is_named_by_its_frequencies():
         and 58 < miss.high < 66
         and miss.factor == pytest.approx(np.log(1.3), abs=0.03)
     )
+
+
+@pytest.mark.full
+def test_what_is_not_admissible_and_fits_better_is_named():
+    """A damper held below its value is at its bound; without it the mass alone is worse."""
+    free = Chain(1, damped=False)
+    given = {"rule": Rule.PAPER, "bound": {"b1": (0.0, 0.4)}, "test": noisy(ONE_MASS, seed=2)}
+    found = select(noisy(ONE_MASS), [free, ONE], **given)
+    assert found.selected.chain == free and [c.chain for c in found.better] == [ONE]
+    (said,) = [line for line in suspicions(found) if "1:1+b1 fits better" in line]
+    assert "b1 is at its bound" in said
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Exports mean the same response in other programs, and read back."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -92,6 +93,18 @@ def test_matlab_reads_every_model(tmp_path):
         assert struct["name"] == model.name and struct["parameters"] == model.values
         assert struct["units"] == model.units and struct["k"] == zpk.gain
         np.testing.assert_array_equal(np.ravel(struct["p"]), zpk.poles)
+
+
+def test_without_python_control_the_remedy_is_said(monkeypatch):
+    monkeypatch.setitem(sys.modules, "control", None)
+    with pytest.raises(InputError, match=r'pip install "disting.control.'):
+        to_control(Chain(1, damped=False), {"m1": 1.0})
+
+
+def test_the_script_says_what_the_data_do_not_determine():
+    chain = Chain(1, damped=False)
+    drive = NumberedStructure("1:1", chain, {"m1": 2.0}, {"m1": "kg"}, undetermined=("m1",))
+    assert "# m1 = 2 kg; not determined by the data: m1\n" in control_script([drive])
 
 
 def test_the_script_makes_every_model_in_python_control():

@@ -10,13 +10,17 @@ import pytest
 from jsonschema import validate
 
 from disting import InputError
-from disting.files import Format, schema
+from disting.cli.fit_text import fit_text
+from disting.files import Format, json_text, schema
 from disting.fit import Case, FurtherResponse, Setup, read_model, select
-from disting.fit.judge.readings import outside, read_in_words
+from disting.fit.judge.readings import bad_lines, outside, quantity_readings, read_in_words
 from disting.fit.search.candidates import chosen_ports
+from disting.fit.search.joint import JointCost
 from disting.measurement import read
+from disting.measurement.response import ASSUMED_ACCELERATION
 from disting.model.chain import Chain
 from disting.report.fit import fit_page
+from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.sentences import first_lines, suspicions
 from tests.cli.process import called
 from tests.fit.drives import OMEGA, response
@@ -74,6 +78,21 @@ def test_the_page_asks_for_it_first_and_gives_no_values(speed):
         assert word not in page
 
 
+def test_neither_text_nor_notebook_nor_file_of_it_gives_values(speed, tmp_path):
+    lines, file = list(fit_text(speed, speed.task.cost.measured)), tmp_path / "fit.json"
+    assert speed.question in lines and any(line.startswith("no values are given") for line in lines)
+    for quantity in ("acceleration", "velocity"):
+        assert sum(line.startswith(f"{quantity} ") for line in lines) == 1  # of the table
+        assert any(f"--quantity {quantity}" in x for x in lines[lines.index("next:") :])
+    shown = speed._repr_html_()
+    assert speed.question in shown and shown.count("<tr>") == 3
+    for text in ("\n".join(lines), shown):
+        assert "explains" not in text and "k12" not in text
+    file.write_text(json_text(selection_to_dict(speed)))
+    with pytest.raises(InputError, match="do not determine which quantity"):
+        read_model(file)
+
+
 @pytest.mark.slow
 def test_the_command_asks_for_it_and_its_file_leads_nowhere(tmp_path):
     """Status 1, the same sentence on the page and in JSON, and no value by any door."""
@@ -113,6 +132,20 @@ def test_several_responses_and_another_cost_ask_for_it_too(tmp_path):
     assert [r.quantity.value for r in both.quantities] == ["acceleration", "velocity"]
     paper = select(measured, chosen, case=Case.COMPLEX)
     assert paper.question and paper.selected is None
+
+
+def test_of_another_cost_the_quantity_is_asked_as_well():
+    """Of one mass: what the paper's cost fits is fitted again by logarithms."""
+    chain = Chain(1, damped=True, ground_dampers=(1,), quantity="velocity")
+    exact = response(chain, VALUES, noise=0.01)
+    measured = replace(exact, quantity="acceleration", notes=(ASSUMED_ACCELERATION,))
+    tried = [replace(chain, quantity="acceleration", lag=True, dead_time=True)]
+    asked = [
+        quantity_readings([c.estimate for c in found.candidates], None, found.task)
+        for found in (select(measured, tried), select(measured, tried, case=Case.COMPLEX))
+    ]
+    for readings in asked:
+        assert [r.quantity.value for r in readings] == ["acceleration", "velocity"]
 
 
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
@@ -157,6 +190,39 @@ def test_a_lag_below_the_band_integrates(speed):
     best = min(lagging, key=lambda c: c.j_train)
     (said,) = outside(best, speed.task.cost.measured)
     assert "below the lowest line (5 Hz): over the whole band it integrates" in said
+
+
+def test_a_dead_time_longer_than_a_period_of_the_lowest_line_is_doubted(speed):
+    best = min(speed.candidates, key=lambda c: c.j_train)
+    late = replace(best.estimate, parameters=best.estimate.parameters | {"T1": 0.0, "Td": 0.3})
+    (said,) = outside(replace(best, estimate=late), speed.task.cost.measured)
+    assert said.startswith("the dead time Td = 0.3 s is longer than a period of the lowest line (5")
+
+
+def test_a_response_that_was_integrated_says_of_what_it_is(speed):
+    measured = replace(speed.task.cost.measured, quantity="velocity")
+    assert read_in_words(measured).endswith("; sensor: velocity, from acceleration (assumed)")
+
+
+def test_lines_that_alone_make_the_misfit_are_named():
+    """Of a structure as large as the best one, or smaller, and of one response only."""
+    chain = Chain(1, damped=True, ground_dampers=(1,))
+    found = select(response(chain, VALUES, noise=0.01), [chain])
+    measured, cost = found.task.cost.measured, found.task.cost
+    hertz = [f"{f:.5g}" for f in measured.frequency]
+    for lines, said in (
+        ([60], f"the line at {hertz[60]} Hz alone makes"),
+        ([20, 60], f"the lines at {hertz[20]}, {hertz[60]} Hz alone make"),
+        ([20, 40, 60], None),
+        ([], None),
+    ):
+        G = measured.G.copy()
+        G[lines] *= 4
+        task = replace(found.task, cost=replace(cost, measured=replace(measured, G=G)))
+        told = bad_lines(found.candidates, found.described, task)
+        assert told is None if said is None else told.startswith(said) and "1:1+b1" in told
+        joint = replace(task, cost=JointCost((task.cost,), (Setup(),)))
+        assert bad_lines(found.candidates, found.described, joint) is None
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from disting import InputError, Quantity
-from disting.fit.networks import _excluding, fit_networks
+from disting.fit.networks import _excluding, _improve_to_contained, _limits, fit_networks
 from disting.fit.search.network_plant import NetworkPlant, NetworkPlants
 from disting.general.any_model import of_network
 from disting.measurement import FrequencyResponse, read, write_csv
@@ -223,6 +223,37 @@ def test_a_network_that_fits_alike_in_another_place_excludes_none(left, excluded
     )
     scatter = replace(found.scatter, freedom=np.inf)
     assert (_excluding(true, [true, other], scatter) == "other") == excluded
+
+
+def test_responses_of_two_quantities_are_refused():
+    omega = np.logspace(0, 2, 20)
+    data = [FrequencyResponse(omega, omega + 1j, quantity=q) for q in ("velocity", "position")]
+    with pytest.raises(InputError, match="all responses of a network must have the same quantity"):
+        fit_networks(data, ["1~2; F1; S1 S2"])
+
+
+@pytest.mark.full
+def test_a_search_that_failed_begins_again_at_the_limit():
+    """At a capacitor and without an inductor; or the network has what the limit shows."""
+    small, large = map(network_of, ("R0-p(R1,C1)", "R0-p(R1,P1)-L1"))
+    plants = [NetworkPlant(network, np.logspace(0, 4, 40)) for network in (small, large)]
+    assert plants[0].parameters == ("C1", "R0", "R1")
+    noise = 3e-3 * np.random.default_rng(1).normal(size=(40, 2)) @ [1, 1j]
+    measured = plants[0].response(np.array([1e-3, 1.0, 2.0])) * (1 + noise)
+    data = FrequencyResponse(plants[0].omega, measured, quantity="position")
+    found = fit_networks(data, [small, large])
+    fits = [next(f for f in found.fits if f.network == plant.network) for plant in plants]
+    fits[1] = replace(fits[1], residual=100 * fits[1].residual, chi2=1e4, explains=False)
+    limits = _limits(fits, [[small], [large]])
+    assert [*limits] == [(1, 0)]
+    _, again = _improve_to_contained(fits, limits, plants, [data], found.scatter)
+    assert again.explains and again.cost <= fits[0].cost * 1.001
+    assert again.values["n1"] == pytest.approx(1, abs=0.05)
+    assert again.values["R1"] == pytest.approx(2, rel=0.05)
+    perfect = [replace(fits[0], residual=0 * fits[0].residual), fits[1]]  # that no search reaches
+    quiet = replace(found.scatter, rho=found.scatter.rho / 100)
+    _, there = _improve_to_contained(perfect, limits, plants, [data], quiet)
+    assert there.explains and (there.cost, there.chi2) == (0, fits[0].chi2)
 
 
 @pytest.mark.full

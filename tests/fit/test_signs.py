@@ -9,7 +9,12 @@ import pytest
 
 from disting.errors import InputError
 from disting.fit import select
+from disting.fit.judge.readings import better_sign
 from disting.fit.search.candidates import chosen_ports
+from disting.fit.search.cost import Cost
+from disting.fit.search.estimate import Task
+from disting.fit.search.joint import JointCost
+from disting.fit.search.setup import Setup
 from disting.measurement import are_opposite
 from disting.model.chain import Chain
 from tests.fit.drives import response
@@ -28,6 +33,21 @@ def load(sign=1, noise=0.01, seed=0, omega=ABOVE):
 @pytest.mark.full
 def test_the_smallest_candidate_alone_would_take_the_wrong_sign():
     assert select(load(), [ONE], test=load(seed=1), sign=0).task.sign == -1
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("signs", [(1, -1), (-1, -1)])
+def test_each_of_several_responses_takes_its_own_sign(signs):
+    """The second one is that of the driven mass, the first one that of the load."""
+    motor = replace(TWO, meas_plus=1)
+    parts = [
+        Cost(load(signs[0])),
+        Cost(response(motor, VALUES, ABOVE, 0.01, 1, signs[1])),
+    ]
+    task = Task(JointCost(tuple(parts), (Setup(), Setup(sensor="1"))))
+    found = better_sign(task, [TWO])
+    assert (found.sign, found.sign * found.cost.setups[1].sign) == signs
+    assert found.cost.parts == task.cost.parts
 
 
 @pytest.mark.slow

@@ -118,6 +118,7 @@ SOLVED = (
     ("1>2, 1>3, 2>1, 3>1; in 2; out 3", "1>2, 2>1, 3>1; in 3; out 2", True, "at 40 of 40", ()),
     ("1>2, 1>3, 2>3; in 1; out 3", "1>2, 1>3, 2>1, 2>3; in 1; out 3", False, "of 40", ("a23",)),
     ("1<>2, 1>0; in 1; out 1", "1<>2, 2>0; in 1; out 1", False, "", ()),
+    ("#~1, 1~2; F2; S2:1", "#~1, #~2; F2:1; S2:1", True, "at 40 of 40", ()),
 )
 
 
@@ -140,6 +141,25 @@ def test_equations_of_few_values(one, other, by_roots, seen, chosen):
         assert abs(sympy.N(difference, 40)) < 1e-30
         if not chosen:
             assert all(x > 0 for x in there.values())
+
+
+@pytest.mark.full
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("1>0, 1>2, 2>1; in 1; out 1", "1>0, 1>2, 2>0, 2>1; in 1; out 1"),
+        ("p(L1,R1-p(R2,C1))", "p(R1,L1,R2-C1)"),  # parts that differ by more than their branches
+    ],
+)
+def test_sections_of_the_equations_cover_all_values(one, other):
+    found = formulas(one, other)
+    assert found and all(form.checked for form in found)
+    (model,) = models(one)
+    values = {n: sympy.Rational(i * i + 3, i + 2) for i, n in enumerate(model.parameters)}
+    there = [{n: sympy.N(x, 40) for n, x in numbers(form, values).items()} for form in found]
+    for known in there:
+        assert abs(sympy.N(response(one, values, 5) / response(other, known, 5) - 1, 40)) < 1e-30
+    assert any(all(x > 0 for x in known.values()) for known in there)
 
 
 @pytest.mark.full

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disting import Domain
-from disting.general.counts import number_of_roots
+from disting.general.counts import at_roots, count_roots_at, number_of_roots
 from disting.general.elimination import Case
 from disting.general.orthant import Orthant
 
@@ -89,3 +89,23 @@ def test_real_numbers_are_not_asked():
     ring = Orthant(1, 1, Domain.REAL)
     p, x, _ = ring.generators
     assert number_of_roots(ring, Case((x**2 - p,))) is None
+
+
+@pytest.mark.parametrize(
+    ("equation", "asked", "number"),
+    [
+        (X**2 - A, (), 1),
+        (X**2 - A, (X - 1,), 1),
+        ((X - A) ** 2, (), None),  # a double root
+        ((A - 2) * X**2 + X - 1, (), None),  # one that is infinite
+        (X**2 - A, (X**2 - A,), None),  # a sign that is zero, to however many bits
+    ],
+)
+def test_roots_at_one_point_are_counted_where_all_signs_are_known(equation, asked, number):
+    assert count_roots_at(RING, equation, [(g,) for g in asked], (), 2, {0: 2, 1: 3}) == number
+
+
+def test_a_remainder_of_more_terms_than_are_allowed_leaves_the_case_as_it_is():
+    case = Case((X**2 - A,), (X**3 - B,))
+    assert at_roots(RING, case).positive == (A * X - B,)
+    assert at_roots(Orthant(2, 1, Domain.POSITIVE, terms=0), case) == case

@@ -10,6 +10,7 @@ from sympy import Matrix, Rational, symbols
 
 from disting import (
     Chain,
+    Domain,
     Experiment,
     InputError,
     Level,
@@ -18,6 +19,7 @@ from disting import (
     ModelList,
     Query,
     View,
+    alternatives,
     compare,
     global_identifiability,
     identifiability,
@@ -236,6 +238,13 @@ def test_a_matrix_of_one_entry_is_that_transfer_function():
         assert compare(*pair, query=EXACT).relation.value == "indistinguishable"
         assert compare(*pair).relation.value == "indistinguishable"
     assert compare(one, other).relation.value == "distinguishable"
+
+
+@pytest.mark.full
+def test_entries_with_other_leading_coefficients_are_solved_together():
+    one = MatrixModel.from_transfer_functions([["1/(a*s + 1)"], ["b/(c*s + 1)"]])
+    found = alternatives(one, {"a": 2, "b": 3, "c": 5}, one)
+    assert [x.values for x in found.within(Domain.COMPLEX)] == [{"a": 2, "b": 3, "c": 5}]
 
 
 def test_transposed_twins():

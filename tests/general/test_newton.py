@@ -8,9 +8,9 @@ from itertools import islice
 
 import pytest
 
-from disting import Model, Relation, compare, local_identifiability, verify
+from disting import MatrixModel, Model, Relation, compare, local_identifiability, verify
 from disting.general.any_model import of_network
-from disting.general.newton import find_equivalent
+from disting.general.newton import equivalent_at, find_equivalent
 from disting.general.relations import (
     coefficients,
     dimension_at_least,
@@ -18,7 +18,7 @@ from disting.general.relations import (
     relations,
 )
 from disting.general.search import common_points
-from disting.general.witnesses import points
+from disting.general.witnesses import by_inequalities, common_point, points
 from disting.model.question import Domain
 from disting.network.notation import network_of
 from disting.verdict.verdict_file import verdict_file
@@ -38,6 +38,20 @@ def models(pair):
 
 def tf(num, den):
     return Model.from_transfer_function(num, den)
+
+
+def test_of_models_that_cannot_agree_no_equivalent_is_looked_for():
+    lag, fast, slow = tf("1", "s + a"), tf("1", "(s + a)*(s + b)"), tf("1", "s + a - b")
+    one = {"a": Fraction(1)}
+    both = one | {"b": Fraction(1)}
+    assert find_equivalent(lag, one, lag) == pytest.approx([1.0])
+    assert find_equivalent(lag, one, fast) is None  # other degrees
+    assert find_equivalent(slow, both, lag) is None  # a coefficient is zero there
+    assert find_equivalent(tf("1", "(a - b)*s + a"), both, tf("1", "c*s + d")) is None
+    matrix = MatrixModel.from_transfer_functions([["1/(s + a)"], ["1/(s + b)"]])
+    assert find_equivalent(matrix, both, matrix) is None
+    assert equivalent_at(matrix, both, matrix, [1.0, 1.0]) is None
+    assert common_point(matrix, matrix) is None and by_inequalities(matrix, matrix) is None
 
 
 @pytest.mark.sampled(2)

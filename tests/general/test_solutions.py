@@ -5,9 +5,14 @@ random point.
 import pytest
 import sympy as sp
 
+from disting import Domain
+from disting.algebra.symbols import RationalFunction
 from disting.general.any_model import of_network
 from disting.general.global_identifiability import global_identifiability
 from disting.general.matrix_model import Model
+from disting.general.orthant import Orthant
+from disting.general.solutions import _real_bounds
+from disting.general.vectors import Vector, are_same
 from disting.network import network_of
 
 TF = Model.from_transfer_function
@@ -88,3 +93,25 @@ def test_a_solution_that_is_too_large_to_write_down_is_not_counted():
     found = global_identifiability(bridge)
     assert (found.count, found.is_infinite, found.unique) == (None, False, ())
     assert "how many sets of them fit is not known" in found.sentence
+
+
+def test_values_at_the_roots_of_one_equation_are_compared_modulo_it():
+    ring = Orthant(1, 2, Domain.REAL)
+    p, x, _, _ = ring.generators
+    one, root = ring.number(1), x**2 - p
+
+    def vector(num, den=one, equation=root):
+        return Vector((None, RationalFunction(num, den)), equation, 1)
+
+    assert are_same(vector(x), vector(p, x))  # x = p/x
+    assert are_same(vector(x), vector(x, equation=-root))
+    assert not are_same(vector(x), vector(-x))
+    assert not are_same(vector(x), vector(x, equation=x**2 - 2 * p))
+    assert not are_same(vector(x), Vector((None, RationalFunction(x, one)), None, -1))
+    assert [
+        _real_bounds(ring, e, 1, n) for e, n in ((root, 2), (x**2 + p**2 + 1, 2), (x**3 - p, 3))
+    ] == [
+        (0, 2),
+        (0, 0),
+        (1, 3),
+    ]

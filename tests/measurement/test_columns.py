@@ -7,6 +7,7 @@ import pytest
 
 from disting import InputError
 from disting.measurement import in_si, read, read_time_series
+from disting.measurement.column_words import Role, meaning
 from disting.measurement.units import FREQUENCIES, PHASES
 
 F = np.arange(3.0, 23.0)
@@ -184,6 +185,42 @@ def test_a_column_of_no_response_is_taken_as_gain(tmp_path):
     )
     assert np.allclose(np.abs(read(path).G), 1)
     np.testing.assert_allclose(read(path, column="X2").G, G, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("header", "role", "unit"),
+    [
+        ("20 log10 |G|", Role.GAIN, "dB"),
+        ("20*lg|H|", Role.GAIN, "dB"),
+        ("freq [rad_per_s]", Role.FREQUENCY, "rad/s"),
+        ("f [N]", Role.OTHER, ""),  # a force, no frequency
+        ("w [m]", Role.OTHER, ""),
+        ("Re Y)", Role.REAL, ""),  # a bracket that nothing opens
+    ],
+)
+def test_what_a_header_means(header, role, unit):
+    column = meaning(header)
+    assert (column.role, column.unit) == (role, unit)
+
+
+def test_columns_of_other_kinds_are_refused(tmp_path):
+    path = written(tmp_path / "a.csv", "f [Hz],gain [dB],phase [deg]", F, DB, DEGREES)
+    assert "not by 3" in refused(path, columns=["Hz", 3, "deg"])[0]
+    said, _ = refused(path, column="f [Hz]")
+    assert "is not the first column of a response; responses begin at column 2 (gain [dB])" in said
+    assert (
+        "the unit of a magnitude is 1, %, dB, Np or ohm, not 'bel'"
+        in refused(path, magnitude_unit="bel")[0]
+    )
+    parts = written(tmp_path / "b.csv", "f [Hz],Re [dB],Im [dB]", F, G.real, G.imag)
+    assert "a real or imaginary part is not in dB" in refused(parts)[0]
+
+
+def test_a_deviation_in_decibels_is_not_used_and_said(tmp_path):
+    header = "f [Hz],gain [dB],phase [deg],std [dB]"
+    found = read(written(tmp_path / "a.csv", header, F, DB, DEGREES, 0.1 + 0 * F))
+    assert found.deviation is None
+    assert any("column 4 (std [dB]) is in dB or Np and is not used" in x for x in found.suspicions)
 
 
 def test_what_is_not_understood_shows_the_table_and_the_command_that_reads_it(tmp_path):

@@ -106,6 +106,15 @@ def test_several_responses_in_one_matlab_array(tmp_path):
         read(path)
 
 
+def test_a_variable_of_another_length_is_no_coherence_and_no_response(tmp_path):
+    """One that nobody named is left out, one that is named is refused."""
+    path = tmp_path / "a.mat"
+    scipy.io.savemat(path, {"f": FREQUENCY, "G": G, "coh": np.ones((7, 2))})
+    assert read(path).coherence is None
+    with pytest.raises(InputError, match=r"coh of shape \(7, 2\) has no axis of \d+ values"):
+        read(path, coherence="coh")
+
+
 def test_time_series_of_a_matlab_file(tmp_path):
     path = tmp_path / "a.mat"
     signals = {"u": np.sin(TIME)[:, None], "y": np.cos(TIME)[None, :], "two": np.ones((100, 2))}

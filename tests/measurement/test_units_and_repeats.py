@@ -217,6 +217,16 @@ def test_repeats_have_a_mean_and_a_scatter(tmp_path):
             mean_of([repeats[0], other])
 
 
+def test_repeats_in_files_are_read_and_scaled_together(tmp_path):
+    files = []
+    for k, size in enumerate((0.9, 1.1)):
+        rows = [(f, size * g.real, size * g.imag) for f, g in zip(FREQUENCY, G, strict=True)]
+        files.append(written(tmp_path / f"{k}.csv", "f [Hz],Re,Im", rows))
+    found = read(files[0], repeat=files[1:], unit={"output": "deg/s", "input": "Nm"}, scale=2.0)
+    np.testing.assert_allclose(found.G, 2 * np.pi / 180 * G, rtol=1e-12)
+    assert found.quantity is Quantity.VELOCITY and found.deviation is not None
+
+
 def repeated(n, seed, lines=100):
     source = np.random.default_rng([seed, n])
     noise = source.normal(size=(n, lines)) + 1j * source.normal(size=(n, lines))

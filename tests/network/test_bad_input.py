@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from disting.errors import InputError
-from disting.network import Network, network_of
+from disting.network import Element, Network, Port, network_of
 from disting.network.families import FAMILIES, family_of
 from disting.network.notation import DIALECTS, NOTATIONS
 from disting.network.notation.entries import entry_of, network_of_entry
@@ -124,6 +124,70 @@ def test_what_is_fuzzed_is_good(text):
 def test_what_could_be_misread_is_refused(text, said):
     with pytest.raises(InputError, match=said):
         network_of(text)
+
+
+SPRING, MASS = Element("k12", "k", (1, 2)), Element("m1", "m", (1,))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("k12", "k", (1, 2), 2), "texts, not 2"),
+        (("k12", "k", [1, 2]), r"a tuple of whole numbers, not \[1, 2\]"),
+        (("q1", "v", (1,)), "'q1' is a compartment, which has no value: leave its name empty"),
+        (("d12", "k", (1, 2)), "d12 names a damper: begin the name of a spring with k"),
+        (("k12", "k", (1, 2), "", "n1"), "k12 is a spring, which has no exponent: remove it"),
+        (("k12", "k", (1, 2), "0"), "the ratio of k12 is zero: remove the gear"),
+        (("k12", "k", (1, 2), "s"), "'s' is not a ratio: use a name other than s, or a number"),
+    ],
+    ids=str,
+)
+def test_an_element_that_is_none_is_refused(arguments, said):
+    with pytest.raises(InputError, match=said):
+        Element(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (([MASS], (Port(1),), (Port(1),)), "elements of a network are a tuple of Element"),
+        (((MASS,), (1,), (Port(1),)), "inputs of a network are a tuple of Port"),
+        (((MASS,), (Port(1),), (Port(1),), 0, "two\nlines"), "printable characters only"),
+        (
+            ((*(Element(f"m{i}", "m", (i,)) for i in range(1, 42)),), (Port(1),), (Port(1),)),
+            "40 nodes and 300 elements at most, not 41 and 41",
+        ),
+        (
+            ((MASS, SPRING, Element("k23", "k", (2, 3), "k12")), (Port(1),), (Port(1),)),
+            "k12 is a ratio and something else: give it its own name",
+        ),
+        (((MASS,), (Port(1),) * 11, (Port(1),) * 11), "10 inputs and outputs at most"),
+        (((MASS,), (Port(1),), (Port(1),), 1.0), "the order of a network is a whole number"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_a_network_that_is_none_is_refused(arguments, said):
+    with pytest.raises(InputError, match=said):
+        Network(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("entry", "said"),
+    [
+        ({"circuit": "1=2; F1; S1"}, 'is not a circuit: write it as "network"'),
+        ({"network": "1=2; F1; S1", "notation": "x"}, "\"notation\" is one of .*, not 'x'"),
+        (
+            {"elements": [["R1", 1, 0]], "port": 1, "force": 1},
+            '"port" is both input and output: remove "force"',
+        ),
+        ({"elements": ["m1"], "force": 1, "sensor": 1}, "a list of a name and its nodes"),
+        ({"elements": [["R1", 1, 0]], "port": [[1, 0, 2]]}, r"a port is \[plus, minus\]"),
+    ],
+    ids=str,
+)
+def test_an_entry_that_is_none_is_refused(entry, said):
+    with pytest.raises(InputError, match=said):
+        network_of_entry(entry, "refused")
 
 
 @given(st.lists(st.sampled_from(["R", "C", "R1", "C2", *"()[]-,", "p("]), max_size=9).map("".join))

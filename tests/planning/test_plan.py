@@ -13,6 +13,8 @@ from disting.fit import select
 from disting.measurement import FrequencyResponse
 from disting.model.chain import Chain
 from disting.model.family import Family
+from disting.network import network_of
+from disting.planning.fit_file import NamedNetworks
 from disting.planning.power import (
     LEVEL,
     POWER,
@@ -27,7 +29,9 @@ from disting.planning.power import (
     union,
 )
 from disting.planning.rival import Trust, fitted_rival, gain
+from disting.report.fit.plan_page import title_of
 from disting.report.fit.plan_words import plan_in_words
+from disting.report.fit.words import percent
 from disting.verdict.result import Relation
 from tests.fit.monte_carlo import Drive, measured, true_scatter
 
@@ -244,6 +248,29 @@ def test_a_larger_structure_contains_the_smaller_one_as_the_verdict_tells():
     found = plan(small, values, Chain(3, damped=True), OMEGA, alike(0.1))
     assert found.answer is Answer.SAME and found.is_contained
     assert next(plan_in_words(found, None, "given")).startswith("impossible: 3:1 contains 2:1")
+
+
+@pytest.mark.full
+def test_how_many_rivals_the_same_effort_excludes_is_the_title(planned):
+    rival = planned.rival
+    quiet, loud = (
+        replace(planned, rival=replace(rival, best=replace(rival.best, j=x * rival.best.j)))
+        for x in (4.0, 0.25)
+    )
+    same = replace(planned, rival=None)  # which no measuring excludes
+    assert [p.answer for p in (quiet, loud)] == [Answer.ENOUGH, Answer.MORE]
+    named = NamedNetworks(network_of("1=2; F1; S1"), VALUES, {}, {}, 0.05, 5.0, 300.0, 120)
+    assert title_of([quiet, quiet], named) == "The same effort excludes every rival"
+    assert title_of([quiet, same], named) == "More of the same excludes 1 of 2 rivals"
+    assert title_of([quiet, loud], named) == "Measure more to exclude 2:1+b2"
+    assert title_of([loud, loud, quiet], named) == "Measure more to exclude 2 rivals"
+
+
+@pytest.mark.full
+def test_a_scatter_that_is_known_is_no_estimate(planned):
+    lines = list(plan_in_words(planned, None, "given"))
+    (tested,) = [line for line in lines if line.startswith("test ")]
+    assert tested.endswith(f"level {percent(LEVEL)}")
 
 
 @pytest.mark.full

@@ -69,6 +69,49 @@ def test_who_alters_a_verdict_and_all_that_is_derived_from_it_is_found_too() -> 
     assert "not true of these models" in verify(told_again(other)).sentence
 
 
+NEITHER = {"closure": "neither", "image": "neither"}
+ONE_SIDED = {"closure": "left-in-right", "image": "left-in-right"}
+
+
+@pytest.mark.full
+@pytest.mark.parametrize(
+    ("lies", "said"),
+    [
+        ({"inclusions": {}, **ONE_SIDED}, "an inclusion has no evidence"),
+        ({"inclusions": {}, **NEITHER}, "an inclusion that is denied has no evidence"),
+        ({"of": "inclusion"}, "an inclusion is stated for models of equal rank"),
+        ({"of": "shares"}, "positive equivalents are stated for models for which they are not"),
+        (
+            {"beside": {"closure": "unknown", "image": "unknown"}},
+            "the statement on complex parameters differs from the verdict over them",
+        ),
+        (
+            {"beside": {"relation": "distinguishable"}},
+            "it rests on equality over complex parameters, which the file does not show",
+        ),
+    ],
+    ids=str,
+)
+def test_who_adds_to_a_verdict_what_it_does_not_show_is_found_too(
+    lies: dict[str, Any], said: str
+) -> None:
+    data = plain("3:1", "3:11")
+    if lies.get("of") == "inclusion":
+        other = plain("3:6", "3:7", View.EXACT)
+        data = plain("3:1", "3:4", View.EXACT)
+        lies = {name: other[name] for name in ("inclusions", "closure", "image")}
+    elif lies.get("of") == "shares":
+        lies, data = {"left_positive": data["left_positive"]}, plain("2:1", "3:4")
+    elif "beside" in lies:
+        lies = {"over_complex": data["over_complex"] | lies["beside"]}
+    assert said in verify(told_again(data, **lies)).sentence
+
+
+def test_a_verification_is_neither_true_nor_false() -> None:
+    with pytest.raises(TypeError, match="use its status"):
+        bool(verify(plain("3:1", "3:2")))
+
+
 FIELDS = ("n_masses", "gap", "act_minus", "act_plus", "meas_minus", "meas_plus")
 
 

@@ -26,7 +26,6 @@ from math import inf, log, pi
 
 import numpy as np
 
-from disting.errors import ConstraintViolation
 from disting.fit.judge.candidate import Candidate, explains, share_about, unseen_explanation
 from disting.fit.search.candidates import reference
 from disting.fit.search.cost import Case
@@ -59,7 +58,7 @@ def read_in_words(measured: FrequencyResponse) -> str:
     quantity = assumed_quantity(measured)
     phrase = "" if quantity is None else " (assumed)"
     if quantity is not None and quantity is not measured.quantity:
-        phrase = f", from a {quantity.value} (assumed)"
+        phrase = f", from {quantity.value} (assumed)"
     return f"{origin}{reading}sensor: {measured.quantity.value}{phrase}"
 
 
@@ -430,12 +429,17 @@ def _places(chain: Chain) -> Iterator[tuple[str, Chain]]:
     already are left out.
     """
     n = max(chain.n_masses, 2)
+    first = replace(
+        chain,
+        n_masses=n,
+        gap=0,
+        gap_damper=False,
+        act_minus=0,
+        act_plus=1,
+        meas_minus=0,
+        meas_plus=1,
+    )
     for place in range(1, n + 1):
-        try:
-            other = replace(
-                chain, n_masses=n, gap=0, act_minus=0, act_plus=1, meas_minus=0, meas_plus=place
-            )
-        except ConstraintViolation:
-            continue
+        other = replace(first, meas_plus=place)
         if other.indices[1:] != chain.indices[1:]:
             yield f"with the force at mass 1 and the sensor at mass {place} of {n}", other

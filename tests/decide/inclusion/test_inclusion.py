@@ -15,12 +15,13 @@ from disting.conditions.inclusion import (
     inclusions_from_dict,
     inclusions_to_dict,
 )
+from disting.decide.inclusion import confirmation
 from disting.decide.inclusion.confirmation import confirms
 from disting.decide.inclusion.decide import CLOSURE_LIMITS, inclusions
 from disting.decide.inclusion.profiles import by_relative_degrees, row_falls
 from disting.decide.inclusion.row_closures import Task, holds
 from disting.evidence.conditions import Counts
-from disting.evidence.ideals import Vanishing
+from disting.evidence.ideals import Refutation, Vanishing
 from disting.evidence.limits import (
     FullImage,
     LargerProjection,
@@ -238,6 +239,18 @@ def test_what_is_wanted_of_a_row_at_its_middle_mass(small):
     assert closure.inclusion is Inclusion.NEITHER and closure.certainty == "proven"
     assert [step.why for step in closure.evidence.steps] == [Why.RESULTANT]
     assert confirms(closure.evidence, *pair)
+
+
+@pytest.mark.full
+def test_a_refutation_that_is_too_large_for_plain_elimination_is_found_again(monkeypatch):
+    """At fresh points and primes, by the same ideals."""
+    models = subjects(3, False)
+    three, eleven = models[2], models[10]
+    found = inclusions(three, eleven).image
+    assert isinstance(found.evidence, Refutation)
+    monkeypatch.setattr(confirmation, "PLAIN_MONOMIALS", 0)
+    assert confirms(found.evidence, three, eleven)
+    assert not confirms(found.evidence, eleven, three)
 
 
 def test_false_evidence_is_refused():

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from disting import Certainty, Chain, Family, InputError, Quantity, Relation, View, catalog
-from disting.decide.positive import confirms, positive_finding
+from disting.decide.positive import confirms, positive_finding, proves
 from disting.decide.positive.obstacles import obstacle, only_rows_sum_to_zero
 from disting.decide.positive.points import equivalent, random_point, read
 from disting.decide.same.real_and_positive import POSITIVELY
@@ -19,6 +19,7 @@ from disting.evidence.positive import (
     Empirical,
     EmptyFibre,
     Interlacing,
+    OnlyOne,
     Points,
     PositiveFinding,
     Share,
@@ -277,7 +278,11 @@ def test_large_chains_stay_honest():
 @pytest.mark.full
 def test_false_evidence_is_refused():
     six, two = Family(4, damped=False)[6], Family(4, damped=False)[2]
-    evidence = positive_finding(six, two).evidence
+    found = positive_finding(six, two)
+    evidence = found.evidence
+    assert proves(found, six, two)
+    for other in (Points(evidence.with_one, evidence.without), OnlyOne(1)):  # of other certainty
+        assert not proves(replace(found, evidence=other), six, two)
     swapped = replace(evidence, with_one=evidence.without, without=evidence.with_one)
     nothing_lacking = replace(evidence, parts=tuple(replace(p, lacking=()) for p in evidence.parts))
     negative = replace(evidence, without=(("m1", "-1"), *evidence.without[1:]))

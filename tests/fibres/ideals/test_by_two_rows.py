@@ -187,6 +187,9 @@ def test_20_lies_in_the_closure_of_8():
     assert found.membership is Membership.MEMBER and found.safety >= 100
     assert confirms_by_rows(found.evidence, small, large)
     assert not confirms_by_rows(replace(found.evidence, left_given=False), small, large)
+    said = found.evidence.sentence("A", "B")
+    assert said.startswith("Both rows of B can have, at least in the limit, the receptances that")
+    assert "row of B was solved for" in said and "random receptances modulo random primes" in said
 
 
 def test_members_refute_nothing():

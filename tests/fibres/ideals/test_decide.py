@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from disting.algebra.symbols import symbols
-from disting.errors import InputError
+from disting.errors import InputError, NotSeenError
 from disting.evidence.ideals import Refutation, Solutions
 from disting.fibres.ideals import (
     CoefficientMap,
@@ -19,6 +19,7 @@ from disting.fibres.ideals import (
     normalise as normal,
 )
 from disting.fibres.ideals.fibre_ideal import generic_rank
+from disting.fibres.ideals.membership import is_empty
 from disting.fibres.synthesis.decide import decide as by_synthesis
 from disting.model.chain import Chain
 from disting.model.family import Family
@@ -213,6 +214,32 @@ def test_limits_make_it_unknown_with_the_reason():
     )
     small = decide(a, b, equal_rank=True, limits=Limits(entries=1000))
     assert small.membership is Membership.UNKNOWN and "too large" in small.reason
+
+
+def test_what_a_short_time_allows_is_said_with_the_reason():
+    """Here runs would go on for hours until the bound is reached."""
+    line, plane = family_of_squares()
+    brief = Limits(seconds=0.2, safety=10**7)
+    for other, membership in ((line, Membership.MEMBER), (plane, Membership.EXCLUDED)):
+        found = decide(line, other, equal_rank=True, limits=brief)
+        assert found.membership is membership and confirms(found.evidence, line, other)
+        assert found.reason == "out of time (0.2 s)" and 0 < found.safety < 10**7
+
+
+def test_degrees_beyond_the_codes_are_too_large():
+    x, y = symbols(["x", "y"]).values()
+    high, plain = (CoefficientMap(("x", "y"), (x**n, y), (y, x**0)) for n in (70, 1))
+    found = decide(high, plain, equal_rank=True)
+    assert (found.membership, found.reason) == (Membership.MEMBER, "")  # in the other direction
+    found = decide(high, high, equal_rank=True)
+    assert (found.membership, found.reason) == (Membership.UNKNOWN, "too large: degree 70")
+
+
+def test_a_contradiction_that_takes_too_long_is_not_seen():
+    a, b = model(3, 1), model(3, 6)
+    assert is_empty(a, b, equal_rank=True, label="again", limits=Limits())
+    with pytest.raises(NotSeenError, match=r"not found again .too large: a matrix of"):
+        is_empty(a, b, equal_rank=True, label="again", limits=Limits(entries=1))
 
 
 def test_bad_questions():

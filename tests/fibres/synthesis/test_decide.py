@@ -3,11 +3,13 @@
 import pytest
 
 from disting.catalogs import Catalog, catalog
+from disting.conditions.rule import Outcome
+from disting.decide.same.exact import by_ideals, by_synthesis, exact_finding
 from disting.errors import InputError
 from disting.fibres.synthesis.decide import Direction, Grounds, decide, member
 from disting.fibres.synthesis.task import Status
 from disting.model.family import Family
-from disting.model.question import Membership
+from disting.model.question import Membership, Settings
 from disting.verdict.result import Relation, View
 
 OPEN_MEMBERS = {
@@ -104,3 +106,12 @@ def test_refuses_unequal_sizes_and_truth_values() -> None:
         decide(Family(2, damped=False)[1], Family(3, damped=False)[1])
     with pytest.raises(TypeError):
         bool(decide(Family(2, damped=False)[1], Family(2, damped=False)[2]))
+
+
+def test_what_the_exact_decision_is_not_about_is_said():
+    two, three = (Family(n, damped=True)[1] for n in (2, 3))
+    sizes = exact_finding(two, three, Settings())
+    assert sizes.outcome is Outcome.INAPPLICABLE and "equal size and sensor" in sizes.note
+    degrees = by_ideals(three, Family(3, damped=True)[2], Settings())
+    assert degrees.outcome is Outcome.INAPPLICABLE and "the degrees differ" in degrees.note
+    assert by_synthesis(three, Family(3, damped=False)[1], Settings()) is None

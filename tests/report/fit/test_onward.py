@@ -11,6 +11,7 @@ from disting.fit.judge.members import Twin
 from disting.fit.results.selection import Selection
 from disting.model.chain import Chain
 from disting.report.fit.links import Link, Site, folders_near, next_steps, step_to, steps_of
+from disting.report.fit.next_of_fit import NetworkAdvice
 from tests.report.fit.conftest import DRIVE
 
 REPORTS = Path(__file__).parents[3] / "reports"
@@ -43,6 +44,25 @@ def test_what_has_no_page_has_no_link(tmp_path: Path) -> None:
         is None
         is Site(tmp_path, tmp_path).page(DRIVE)
     )
+
+
+def test_a_structure_with_a_damper_across_its_gap_has_no_page(
+    tmp_path: Path,
+) -> None:
+    across, site = Chain(3, 1, 1, 2, 1, 2, damped=True), Site(tmp_path, tmp_path)
+    (tmp_path / "models" / "3-damped").mkdir(parents=True)
+    (tmp_path / "models" / "3-damped" / "6.html").touch()
+    assert site.page(across) == Link("3:6", "models/3-damped/6.html")
+    assert site.page(replace(across, gap_damper=True)) is None
+
+
+def test_networks_that_no_others_imitate_are_told_by_more_of_the_same() -> None:
+    one = NetworkAdvice("my fit.json", ("R1-C1",), ())
+    alone = "the data of my fit.json leave R1-C1; no other candidate gives the same responses as one of them"
+    assert one.first == alone == "; ".join(one.sentences)
+    both = NetworkAdvice("my fit.json", ("R1-C1", "R1-L1"), ())
+    assert both.first == both.sentences[0] == "the data of my fit.json leave R1-C1 | R1-L1"
+    assert both.sentences[1].endswith("separates these: disting plan 'my fit.json'")
 
 
 def test_pages_beside_are_found_and_addresses_are_quoted(tmp_path: Path) -> None:

@@ -9,14 +9,22 @@ from pathlib import Path
 
 import pytest
 
+from disting.cli.fit_text import fit_text
 from disting.errors import InputError
 from disting.export import read_model
 from disting.files import __version__
+from disting.fit.judge.admissible import Rule
+from disting.fit.judge.explanation import Miss
+from disting.fit.judge.look_alikes import LookAlikeKind
+from disting.fit.judge.members import Disagreement
 from disting.fit.judge.modes import physical
+from disting.fit.judge.outside import Outside
+from disting.fit.judge.readings import QuantityReading
 from disting.fit.results.selection import Selection
 from disting.fit.search.candidates import chosen_ports
 from disting.fit.select import select
 from disting.measurement import FrequencyResponse
+from disting.model.chain import Quantity, text_drawing
 from disting.model.names import name_of
 from disting.report.fit import (
     collinearity_dots,
@@ -25,10 +33,11 @@ from disting.report.fit import (
     waterfall,
     write_fit_report,
 )
+from disting.report.fit.answer import answer
 from disting.report.fit.criteria import limits, nearest, parameters_by_threshold, weakest
 from disting.report.fit.selection_json import selection_to_dict
 from disting.report.fit.selection_page import reasons
-from disting.report.fit.sentences import first_lines
+from disting.report.fit.sentences import first_lines, suspicions
 from disting.report.fit.style import FigureFiles
 from disting.report.fit.words import readable
 from disting.report.fit.write import candidates_csv
@@ -217,6 +226,17 @@ def test_nothing_admissible_is_said_with_the_nearest_and_why(
     assert "each line is predicted by a fit without it" in said
 
 
+def test_text_and_notebook_say_why_nothing_is_admissible(
+    nothing: Selection, train: FrequencyResponse
+) -> None:
+    lines = list(fit_text(nothing, train))
+    why = lines[: lines.index("more excitation or wider --thresholds may help")]
+    for candidate in nothing.candidates[:8]:
+        drawn = text_drawing(candidate.chain)
+        assert f"  {drawn}: {'; '.join(candidate.reasons)}" in why
+    assert "No candidate is admissible." in nothing._repr_html_()
+
+
 def test_the_nearest_exceeds_its_thresholds_least(nothing: Selection) -> None:
     excess = [
         max(x.value / x.threshold for x in limits(c, nothing.thresholds)) for c in nearest(nothing)
@@ -231,6 +251,86 @@ def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
     assert nothing.described is nothing.candidates[0] is not nearest(nothing)[0]
     said = " ".join(empty.text.split())
     assert f"the best one is {name_of(nothing.described.chain)}" in said
+
+
+MISSED = Miss(30.0, 40.0, 0.2, 0.3, 0.8)
+NO_PART = {"chi2": 1e3, "chi2_apart": 1e3}
+DEGREES = {
+    "apart": (
+        {"chi2": 50.0, "chi2_apart": 1.0, "worst_apart": 1.0},
+        "explains this data apart from small differences over the band: noise alone stays below",
+        ": this explains the measurement apart from a part that it misses",
+    ),
+    "apart from one place": (
+        {"chi2": 50.0, "chi2_apart": 1.0, "worst_apart": 1.0, "misses": (MISSED,)},
+        "explains this data apart from 30 to 40 Hz (by up to 20 % and 17 degrees)",
+        ": this explains the measurement apart from a part that it misses",
+    ),
+    "near": (
+        {"is_beaten": True},
+        "comes near, but misses it by more than noise (chi2 per line",
+        "No fitted structure explains the measurement fully; near it: 2 masses",
+    ),
+    "not": (
+        NO_PART,
+        "structure: none of the candidates that may be selected explains this data",
+        "No fitted structure explains the measurement",
+    ),
+    "noise": (
+        {"clear": 0.01},
+        "none of the candidates explains this data: it is mostly noise, only",
+        "The measurement is mostly noise",
+    ),
+    "few": (
+        {"lines": 3, "needed": 10},
+        "structure: 3 lines are too few to judge 2:1+b2, the best candidate: at least 10 are needed",
+        "3 lines are too few to judge a structure",
+    ),
+}
+
+
+@pytest.mark.parametrize("degree", DEGREES)
+def test_each_degree_of_an_explanation_has_its_words(selection: Selection, degree: str) -> None:
+    changes, said, title = DEGREES[degree]
+    told = replace(selection, explanation=replace(selection.explanation, **changes))
+    assert said in first_lines(told)[1]
+    assert title in answer(told, []).title
+    assert ("The data are mostly noise." in told._repr_html_()) == (degree == "noise")
+    if degree in ("not", "noise", "few"):
+        assert (
+            "use its values" in first_lines(told)[1] and suspicions(told)[0] in first_lines(told)[1]
+        )
+
+
+def test_what_would_explain_data_that_no_candidate_explains_is_named(selection: Selection) -> None:
+    """A branch, another quantity: with the command that fits it."""
+    nothing = replace(selection.explanation, **NO_PART)
+    branch = Outside(LookAlikeKind.BRANCH, "1=2, 1=3; F1; S1", {}, 1.2, True, 0.1)
+    _, structure, more = first_lines(replace(selection, explanation=nothing, outside=(branch,)))
+    assert "outside the candidates this machine explains it: " in structure
+    assert '--models "1=2, 1=3; F1; S1" with --masses' in more
+    readings = tuple(
+        QuantityReading(Quantity(name), selection.described.estimate, size, name == "acceleration")
+        for name, size in (("acceleration", 1e3), ("velocity", 1.1))
+    )
+    told = replace(selection, explanation=nothing, selected=None, quantities=readings)
+    wanted = "that it is acceleration is assumed; give --quantity velocity, or --quantity accel"
+    assert told.question == "" and wanted in first_lines(told)[2]
+    assert any(wanted in sentence for sentence in suspicions(told))
+
+
+def test_what_training_and_test_data_give_differently_is_said(
+    selection: Selection, train: FrequencyResponse
+) -> None:
+    first, *others = selection.members
+    apart = replace(first, disagreements=(Disagreement("k12", 900.0, 990.0, 6.0),))
+    told = replace(selection, members=(apart, *others))
+    assert any(
+        "training and test data disagree on k12 (900 and 990, 6 standard errors apart)" in sentence
+        for sentence in suspicions(told)
+    )
+    (line,) = [line for line in fit_text(told, train) if line.startswith("  k12 ")]
+    assert line.endswith("   test data: 990, 6 standard errors apart")
 
 
 def test_why_this_one_and_not_the_lowest_cost(selection: Selection) -> None:
@@ -280,6 +380,11 @@ def test_structures_that_no_data_can_tell_apart_are_named(starts: FigureFiles) -
     )
     assert "2 masses, force 1, sensor 2, dampers b1, b2." in said
     assert "1 fit saved" in said and "None: each of" not in said
+    lines = list(fit_text(found, train))
+    same = next(
+        i for i, line in enumerate(lines) if line.startswith("each of these gives the same")
+    )
+    assert lines[same + 1].startswith("  2 masses, force 1, sensor 2, damper b")
 
 
 def test_no_alternatives_are_said_so(outline: Outline) -> None:
@@ -304,6 +409,12 @@ def test_what_no_data_determine_is_said_in_words() -> None:
     said = " ".join(Outline(page).text.split())
     determined = "ot identifiable: no data determine more than k12/d12, m1 + m2, k12/(m1*m2)"
     assert f"N{determined}. Known parameters" in said and "no, not identifiable" in said
+    none = select(train, [free], test=response(1, 3, 2, free), rule=Rule.PAPER)
+    lines = list(fit_text(none, train))
+    assert none.selected is None
+    assert lines[lines.index("more excitation or wider --thresholds may help") + 1].startswith(
+        "not identifiable: only known parameters (--fix NAME=VALUE)"
+    )
     assert "∞" not in said and not re.search(r"\binf\b", said)
     (plain,) = json.loads(json.dumps(selection_to_dict(found), allow_nan=False))["candidates"]
     assert plain["unidentifiable"] == f"n{determined}" and plain["condition_index"] is None
