@@ -219,7 +219,7 @@ def _draw(axes: "Axes", shape: Shape) -> None:
     patch.set_facecolor(_colour(shape.fill))
     patch.set_edgecolor(_colour(shape.stroke))
     patch.set_linewidth(shape.line if shape.stroke != Ink.NONE else 0)
-    axes.add_patch(patch)
+    axes.add_artist(patch)  # add_patch looks for limits of the data, which nobody asks for
 
 
 def _colour(ink: Ink) -> str:
