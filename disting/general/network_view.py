@@ -57,7 +57,7 @@ class NetworkView(View):
         """All that its verdicts depend on, as text."""
         return (full_text(self.given), *self.experiments)
 
-    @property
+    @cached_property
     def model(self) -> GeneralModel | NetworkModel:
         """The transfer functions, whatever they are called."""
         return behaviour_of(self.given)

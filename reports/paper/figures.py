@@ -179,6 +179,7 @@ SIDES = {Anchor.START: "left", Anchor.MIDDLE: "center", Anchor.END: "right"}
 def pdf(scene: Scene) -> bytes:
     """PDF bytes of a scene."""
     import matplotlib
+    from matplotlib.backends.backend_pdf import FigureCanvasPdf
     from matplotlib.figure import Figure
 
     with matplotlib.rc_context():
@@ -193,7 +194,7 @@ def pdf(scene: Scene) -> bytes:
         for shape in scene.shapes:
             _draw(axes, shape)
         out = BytesIO()
-        figure.savefig(out, format="pdf", metadata=METADATA["pdf"])
+        FigureCanvasPdf(figure).print_pdf(out, metadata=METADATA["pdf"])
     return out.getvalue()
 
 
@@ -218,7 +219,7 @@ def _draw(axes: "Axes", shape: Shape) -> None:
     patch.set_facecolor(_colour(shape.fill))
     patch.set_edgecolor(_colour(shape.stroke))
     patch.set_linewidth(shape.line if shape.stroke != Ink.NONE else 0)
-    axes.add_patch(patch)
+    axes.add_artist(patch)  # add_patch looks for limits of the data, which nobody asks for
 
 
 def _colour(ink: Ink) -> str:

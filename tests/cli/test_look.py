@@ -38,7 +38,7 @@ def test_it_shows_columns_facts_and_a_diagram(bode):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("encoding", ["ascii", "utf-8"])
+@pytest.mark.parametrize("encoding", ["ascii", pytest.param("utf-8", marks=pytest.mark.slow)])
 def test_a_pipe_gets_80_columns_of_what_it_can_hold(bode, encoding):
     environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     environment |= {"PYTHONIOENCODING": encoding, "DISTING_CACHE": "off"}

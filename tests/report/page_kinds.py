@@ -1,6 +1,8 @@
 """Every kind of page that is written, and a folder with all of them."""
 
+import json
 import shutil
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,12 +28,14 @@ from disting.measurement import FrequencyResponse, look
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.links import Site
-from disting.report.fit.network_page import write_network_report
+from disting.report.fit.network_figures import _draw_response, nyquist
+from disting.report.fit.network_page import network_page, write_network_report
 from disting.report.fit.style import FigureFiles
 from disting.report.listing import Listing, judge
 from disting.report.look import write_look
 from disting.report.model_list import write_model_list
 from tests.report.fit.conftest import DRIVE, response
+from tests.report.fit.test_network_page import TEXTS, cell
 from tests.report.fit.test_responses import data
 from tests.report.test_model_list import MODELS, hostile, of
 
@@ -114,7 +118,7 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
         folder / "alone" / "look",
     )
     write_look(look(_refused(folder / "refused.csv")), folder / "alone" / "refused")
-    _write_networks(folder / "alone" / "networks")
+    _write_networks(folder / "alone" / "networks", whole)
     found = fits(whole)
     starts = waterfall(found[0][1].described)
     for address, selection, train, test in found:
@@ -124,17 +128,25 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
             _write_fit(selection, folder / address, train, starts)
 
 
-def _write_networks(folder: Path) -> None:
+def _write_networks(folder: Path, whole: bool) -> None:
     """The page of a fit of circuits of which two are left and two cannot be told apart, and the
-    page of its plan.
+    page of its plan; `whole`: of networks of five parameters, else with one figure for all.
     """
-    omega = 2 * np.pi * np.logspace(-1, 4, 30)
-    noise = np.random.default_rng(2).normal(size=(2, 30)) * 0.04
-    impedance = 10 + 1 / (1 / 80 + 2e-5 * (1j * omega) ** 0.93)
-    measured = impedance * (1 + noise[0] + 1j * noise[1])
-    cell = FrequencyResponse(omega, measured, quantity=Quantity.POSITION, is_impedance=True)
-    texts = ("R0-p(R1,P1)", "R0-p(R1,C1)-p(R2,C2)", "p(R2,R0-P1)", "R0-p(R1,C1)")
-    write_network_report(fit_networks(cell, list(map(network_of, texts))), folder)
+    if whole:
+        omega = 2 * np.pi * np.logspace(-1, 4, 30)
+        noise = np.random.default_rng(2).normal(size=(2, 30)) * 0.04
+        impedance = 10 + 1 / (1 / 80 + 2e-5 * (1j * omega) ** 0.93)
+        measured = impedance * (1 + noise[0] + 1j * noise[1])
+        data = FrequencyResponse(omega, measured, quantity=Quantity.POSITION, is_impedance=True)
+        texts = ("R0-p(R1,P1)", "R0-p(R1,C1)-p(R2,C2)", "p(R2,R0-P1)", "R0-p(R1,C1)")
+        write_network_report(fit_networks(data, list(map(network_of, texts))), folder)
+    else:
+        found = fit_networks(cell(), list(map(network_of, TEXTS)))
+        drawn = nyquist(_draw_response(found, 0), "nyquist")
+        figures = [replace(drawn, name=name) for name in ("nyquist", "bode", "residuals")]
+        folder.mkdir(parents=True)
+        _write_page(folder, network_page(found, figures, folder), figures)
+        (folder / "fit.json").write_text(json.dumps(found.to_dict()), encoding="utf-8")
     assert main(["plan", str(folder / "fit.json"), "--out", str(folder)]) == 0
 
 
@@ -166,7 +178,7 @@ def fits(whole: bool) -> list[tuple[str, Selection, FrequencyResponse, Frequency
     second = Setup("2")
     further = FurtherResponse(data(second, 2, 0.01), second, data(second, 3, 0.03))
     both = data(Setup(), 10, 0.01), data(Setup(), 11, 0.03)
-    pair = [DRIVE, replace(DRIVE, ground_dampers=(1, 2))]
+    pair = [DRIVE, *([replace(DRIVE, ground_dampers=(1, 2))] if whole else [])]
     found = select(train, some, test=test)
     return [
         ("fit", found, train, test),
@@ -197,9 +209,14 @@ def asking(found: Selection) -> Selection:
 def _write_fit(selection: Selection, out: Path, train: FrequencyResponse, one: FigureFiles) -> None:
     """The page of a fit with one figure, and empty files beside it."""
     out.mkdir(parents=True, exist_ok=True)
-    page = fit_page(selection, [], [one], train, site=Site(out.parent, out))
+    _write_page(out, fit_page(selection, [], [one], train, site=Site(out.parent, out)), [one])
+
+
+def _write_page(out: Path, page: str, figures: Sequence[FigureFiles]) -> None:
+    """A page of a fit, and empty files beside it."""
     (out / "fit.html").write_text(page, encoding="utf-8")
-    for name in ("svg", "png", "pdf"):
-        (out / f"{one.name}.{name}").touch()
+    for figure in figures:
+        for kind in ("svg", "png", "pdf"):
+            (out / f"{figure.name}.{kind}").touch()
     for name in ("fit.json", "candidates.csv"):
         (out / name).touch()

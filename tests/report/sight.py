@@ -3,20 +3,20 @@
 CUT = r"""() => {
   const found = new Set(), page = document.documentElement, wide = page.clientWidth;
   const seen = (e) => e.checkVisibility({ visibilityProperty: true }) && !hidden(e);
-  const hidden = (e) => { // for those who listen only
-    for (let up = e; up; up = up.parentElement) if (getComputedStyle(up).clipPath === "inset(50%)") return true;
-    return false;
+  const kept = (of) => { // asked of each element once, as its descendants ask it again
+    const known = new Map();
+    return (e) => known.has(e) ? known.get(e) : known.set(e, of(e)).get(e);
   };
+  const hidden = kept((e) => e !== null && (getComputedStyle(e).clipPath === "inset(50%)" || hidden(e.parentElement))); // for those who listen only
   const words = (e) => (e.textContent || e.placeholder || "").trim().replace(/\s+/g, " ").slice(0, 40);
   const tell = (what, e) => found.add(`${what}: ${e.localName}${e.id && "#" + e.id}.${e.classList.value} "${words(e)}"`);
-  const boxOf = (e) => { // what cuts an element off or lets it scroll
-    for (let up = e.parentElement; up && up !== page; up = up.parentElement) {
-      const { overflowX, overflowY, position } = getComputedStyle(up);
-      if (overflowX !== "visible" || overflowY !== "visible") return up;
-      if (position === "fixed") return null;
-    }
-    return null;
-  };
+  const boxFrom = kept((up) => { // it or what is around it that cuts off or scrolls
+    if (!up || up === page) return null;
+    const { overflowX, overflowY, position } = getComputedStyle(up);
+    if (overflowX !== "visible" || overflowY !== "visible") return up;
+    return position === "fixed" ? null : boxFrom(up.parentElement);
+  });
+  const boxOf = (e) => boxFrom(e.parentElement);
   const cuts = (overflow) => overflow === "hidden" || overflow === "clip";
   const ownWords = (e) => [...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim());
   const shortField = (e, style) => { // the value of a field is wider than the field

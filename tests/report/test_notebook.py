@@ -234,8 +234,19 @@ def test_a_matrix_has_a_field_a_pair_in_the_place_of_its_models():
     assert catalog(2, damped=False).plot(given) is given
 
 
+REMEDY = "a plot needs matplotlib; install it: pip install matplotlib"
+
+
 @pytest.mark.full
-def test_without_matplotlib_a_plot_names_the_remedy():
+def test_without_matplotlib_a_plot_names_the_remedy(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert len(catalog(3, damped=False)._repr_html_()) > 1000
+    with pytest.raises(DistingError, match=f"^{REMEDY}$"):
+        catalog(3, damped=False).plot()
+
+
+@pytest.mark.slow
+def test_in_a_process_without_matplotlib_as_well():
     code = (
         "import sys; sys.modules['matplotlib'] = None\n"
         "import disting\n"
@@ -243,6 +254,4 @@ def test_without_matplotlib_a_plot_names_the_remedy():
         "disting.catalog(3, damped=False).plot()"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600)
-    assert done.stderr.splitlines()[-1] == (
-        "disting.errors.DistingError: a plot needs matplotlib; install it: pip install matplotlib"
-    )
+    assert done.stderr.splitlines()[-1] == f"disting.errors.DistingError: {REMEDY}"

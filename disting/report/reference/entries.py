@@ -99,12 +99,24 @@ def definition(at: Place) -> Place | None:
     >>> definition(Place("disting", "Chain"))
     Place(module='disting.model.chain', name='Chain')
     """
-    if at.module.split(".")[0] != PACKAGE or not _exists(at.module):
+    if at.module.split(".")[0] != PACKAGE:
         return None
-    module = parse(at.module)
-    if at.name in module.definitions:
+    defined, imports = _names_in(at.module)
+    if at.name in defined:
         return at
-    return definition(module.imports[at.name]) if at.name in module.imports else None
+    return definition(imports[at.name]) if at.name in imports else None
+
+
+@cache
+def _names_in(module: str) -> tuple[frozenset[str], dict[str, Place]]:
+    """Names that a module defines and those that it imports, which take less room than its tree;
+    none if there is no such module.
+    """
+    try:
+        parsed = parse(module)
+    except ModuleNotFoundError:
+        return frozenset(), {}
+    return frozenset(parsed.definitions), parsed.imports
 
 
 def _source(name: str) -> str:
@@ -116,15 +128,6 @@ def _source(name: str) -> str:
         return files(PACKAGE).joinpath(*path, f"{last}.py").read_text(encoding="utf-8")
     except FileNotFoundError:
         raise ModuleNotFoundError(f"there is no module {name}") from None
-
-
-@cache
-def _exists(name: str) -> bool:
-    try:
-        parse(name)
-    except ModuleNotFoundError:
-        return False
-    return True
 
 
 def _names(node: ast.stmt) -> Iterator[str]:

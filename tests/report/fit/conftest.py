@@ -1,5 +1,7 @@
 """A measured two-mass drive, simulated: what both modules of tests look at."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -54,14 +56,16 @@ def starts(selection: Selection) -> FigureFiles:
 
 @pytest.fixture(scope="session")
 def nothing(train: FrequencyResponse) -> Selection:
-    """No candidate is admissible, no test data, one parameter fixed, one at its bound."""
+    """No candidate is admissible, no test data, one parameter fixed, one at its bound; the data are
+    missed by so little that no other reading of them is looked for.
+    """
     strict = Thresholds(condition_index=5.0, importance_ratio=10.0, collinearity=2.0)
-    candidates = [c for c in figure_1((2,)) if c.ground_dampers and not c.lag and not c.dead_time]
+    candidates = [replace(DRIVE, ground_dampers=at) for at in ((), (1,), (2,))]
     return select(
         train,
         candidates,
         thresholds=strict,
         rule=Rule.PAPER,
         fix={"k12": 900.0},
-        bound={"m1": (0.0, 0.009)},
+        bound={"m1": (0.0, 0.0098)},
     )

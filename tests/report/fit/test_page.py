@@ -30,7 +30,6 @@ from disting.report.fit import (
     collinearity_dots,
     fit_page,
     importance_bars,
-    waterfall,
     write_fit_report,
 )
 from disting.report.fit.answer import answer
@@ -94,15 +93,14 @@ def test_all_files_are_written_and_linked(written: list[Path], outline: Outline)
 def test_the_same_figures_page_and_data_again(
     selection: Selection, train: FrequencyResponse, test: FrequencyResponse, written: list[Path]
 ) -> None:
-    """Two figures, drawn and written by what draws and writes all; `disting fit` writes all
-    twice in the slow one.
+    """One figure, drawn and written by what draws and writes all; `disting fit` writes all twice
+    in the slow one.
     """
-    found = selection.described
     content = {p.name: p.read_bytes() for p in written}
-    for drawn in (importance_bars(found, selection.thresholds), waterfall(found)):
-        for kind in ("svg", "png", "pdf"):
-            assert getattr(drawn, kind) == content[f"{drawn.name}.{kind}"], (drawn.name, kind)
-        assert drawn.inline in content["fit.html"].decode()
+    drawn = importance_bars(selection.described, selection.thresholds)
+    for kind in ("svg", "png", "pdf"):
+        assert getattr(drawn, kind) == content[f"{drawn.name}.{kind}"], (drawn.name, kind)
+    assert drawn.inline in content["fit.html"].decode()
     assert candidates_csv(selection).encode() == content["candidates.csv"]
     assert json.loads(content["fit.json"]) == json.loads(json.dumps(selection_to_dict(selection)))
 
@@ -117,6 +115,13 @@ def test_two_runs_write_the_same_bytes(
 ) -> None:
     again = write_fit_report(selection, tmp_path, train, test)
     assert [p.read_bytes() for p in again] == [p.read_bytes() for p in written]
+
+
+def test_figures_of_the_parameters_say_how_much_is_allowed(outline: Outline) -> None:
+    """And of how many parameters."""
+    titles = [str(a["aria-label"]) for tag, a in outline.elements if tag == "svg"]
+    assert sum("allowed 1000" in title for title in titles) == 2  # wide and narrow
+    assert sum(" for all 5, " in title for title in titles) == 2
 
 
 def test_nothing_is_fetched(written: list[Path], outline: Outline) -> None:
@@ -250,7 +255,7 @@ def test_the_page_describes_the_candidate_that_its_first_lines_are_about(
     """Where none is admissible: not the one nearest to its thresholds, which may fit worse."""
     assert nothing.described is nothing.candidates[0] is not nearest(nothing)[0]
     said = " ".join(empty.text.split())
-    assert f"the best one is {name_of(nothing.described.chain)}" in said
+    assert f"{name_of(nothing.described.chain)} comes near" in said
 
 
 MISSED = Miss(30.0, 40.0, 0.2, 0.3, 0.8)
@@ -400,7 +405,6 @@ def test_what_no_data_determine_is_said_in_words() -> None:
     found = select(train, [free], test=response(1, 3, 2, free))
     candidate = found.described
     drawn = [
-        waterfall(candidate),
         parameters_by_threshold(found.candidates, found.thresholds),
         importance_bars(candidate, found.thresholds),
         collinearity_dots(candidate, found.task, found.thresholds),
