@@ -33,6 +33,7 @@ from disting import (
     equivalents,
     explicit_map,
     findings,
+    gate,
     global_identifiability,
     identifiability,
     local_identifiability,
@@ -45,6 +46,10 @@ from disting.catalogs.sizes import sizes_catalog
 from disting.experiments.measured_network import MeasuredNetwork
 from disting.fit import figure_1, plan, predict, select
 from disting.fit.judge.alternatives import Alternative
+from disting.fit.judge.members import Twin
+from disting.fit.search.cost import Cost
+from disting.fit.search.joint import JointCost
+from disting.fit.search.setup import Setup
 from disting.measurement import FrequencyResponse, TimeSeries
 from disting.model.chain import text_drawing
 from disting.model.names import read_together
@@ -109,6 +114,9 @@ def shown() -> list[object]:
         sizes_catalog(damped=False),
         MeasuredNetwork(network_of("1=2; F1; S1"), (Experiment(), Experiment(inertias={1: 1}))),
         Alternative(DRIVE, Relation.UNDECIDED, "It is open."),
+        Twin(DRIVE, VALUES, 1),
+        JointCost((Cost(DATA), Cost(DATA)), (Setup(), Setup(sensor="2"))),
+        gate([Chain(1, damped=False), family[1]], engine=engine),
         designed := plan(DRIVE, VALUES, replace(DRIVE, ground_dampers=(2,)), OMEGA, ERRORS),
         designed.rival,
         DATA,
@@ -156,6 +164,9 @@ def test_lines_say_what_is_there(shown):
     )
     assert lines["Selection"] == "<Selection: 2:1+b1 of 24 candidates, 1 not excluded>"
     assert lines["FrequencyResponse"] == "<FrequencyResponse: 60 lines, 5 to 200 Hz, acceleration>"
+    assert lines["Twin"] == "<Twin: 2:1+b1, m1=0.02, m2=0.01, k12=500, d12=0.1, b1=0.3>"
+    assert lines["JointCost"] == "<JointCost: 2 responses>"
+    assert lines["Gate"] == "<Gate: 2 models, 2 kept>"
     assert lines["SizesCatalog"] == "<SizesCatalog: sizes-undamped, 117 models>"
     assert lines["NextCatalog"] == "<NextCatalog: next-3-damped, 3 groups>"
     assert (
