@@ -28,7 +28,6 @@ from disting.measurement import FrequencyResponse, look
 from disting.report import write_report
 from disting.report.fit import fit_page, waterfall, write_fit_report
 from disting.report.fit.links import Site
-from disting.report.fit.network_figures import _draw_response, nyquist
 from disting.report.fit.network_page import network_page, write_network_report
 from disting.report.fit.style import FigureFiles
 from disting.report.listing import Listing, judge
@@ -113,14 +112,14 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
     family = judge(shown, engine)
     write_model_list(Listing(family, "Circuits", "list-circuits-4"), folder)
     write_model_list(Listing(judge(hostile(), engine), "Hostile", "list-hostile"), folder / "alone")
+    found = fits(whole)
+    starts = waterfall(found[0][1].described)
     write_look(
         look(_record(folder / "record.csv"), input="u [Nm]", output="y [rad]"),
         folder / "alone" / "look",
     )
     write_look(look(_refused(folder / "refused.csv")), folder / "alone" / "refused")
-    _write_networks(folder / "alone" / "networks", whole)
-    found = fits(whole)
-    starts = waterfall(found[0][1].described)
+    _write_networks(folder / "alone" / "networks", None if whole else starts)
     for address, selection, train, test in found:
         if whole:
             write_fit_report(selection, folder / address, train, test)
@@ -128,11 +127,11 @@ def write_all(folder: Path, masses: int, *, whole: bool) -> None:
             _write_fit(selection, folder / address, train, starts)
 
 
-def _write_networks(folder: Path, whole: bool) -> None:
+def _write_networks(folder: Path, one: FigureFiles | None) -> None:
     """The page of a fit of circuits of which two are left and two cannot be told apart, and the
-    page of its plan; `whole`: of networks of five parameters, else with one figure for all.
+    page of its plan; with `one` figure for all, or of networks of five parameters with their own.
     """
-    if whole:
+    if one is None:
         omega = 2 * np.pi * np.logspace(-1, 4, 30)
         noise = np.random.default_rng(2).normal(size=(2, 30)) * 0.04
         impedance = 10 + 1 / (1 / 80 + 2e-5 * (1j * omega) ** 0.93)
@@ -142,8 +141,7 @@ def _write_networks(folder: Path, whole: bool) -> None:
         write_network_report(fit_networks(data, list(map(network_of, texts))), folder)
     else:
         found = fit_networks(cell(), list(map(network_of, TEXTS)))
-        drawn = nyquist(_draw_response(found, 0), "nyquist")
-        figures = [replace(drawn, name=name) for name in ("nyquist", "bode", "residuals")]
+        figures = [replace(one, name=name) for name in ("nyquist", "bode", "residuals")]
         folder.mkdir(parents=True)
         _write_page(folder, network_page(found, figures, folder), figures)
         (folder / "fit.json").write_text(json.dumps(found.to_dict()), encoding="utf-8")
