@@ -22,7 +22,7 @@ from disting.fit.judge.explanation import (
     yardsticks,
 )
 from disting.fit.judge.readings import _misread, _places
-from disting.fit.search.candidates import figure_1
+from disting.fit.search.candidates import figure_1, reference
 from disting.fit.search.cost import Cost
 from disting.fit.search.data import WhitenedCost
 from disting.fit.select import select
@@ -95,6 +95,8 @@ def told(data, found):
     assert len(more) > len("next: ")
     assert structure.startswith(f"structure: none of the candidates {which}explains this data")
     assert any(said in structure for said in suspicions(found))
+    best = reference(found.described.chain)
+    assert f"the best one is {best}" in structure or f"{best} comes near" in structure
 
 
 @pytest.mark.slow

@@ -122,7 +122,6 @@ SOLVED = (
 )
 
 
-@pytest.mark.sampled(2)
 @pytest.mark.full
 @pytest.mark.parametrize(("one", "other", "by_roots", "seen", "chosen"), SOLVED)
 def test_equations_of_few_values(one, other, by_roots, seen, chosen):

@@ -128,8 +128,8 @@ def extrema(measured: FrequencyResponse) -> list[tuple[float, float]]:
 def peaks(level: Real) -> list[tuple[int, float]]:
     """Local maxima of a curve, shape (n,), of a prominence of PROMINENCE at least, with their
     prominences: the smaller one of the descents to both sides, each as far as nothing is higher.
-    Of equal neighbours the middle one counts. As `find_peaks` of scipy.signal, whose import takes
-    as long as that of all the rest.
+    Of equal neighbours the middle one counts. The same as scipy.signal finds, whose import takes as
+    long as that of all the rest.
 
     >>> peaks(np.array([0.0, 2.0, 2.0, 2.0, 1.0, 3.0, 0.0]))
     [(2, 1.0), (5, 3.0)]
