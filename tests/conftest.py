@@ -190,7 +190,7 @@ def browser():
     with playwright.sync_playwright() as p:
         if not CHROMIUM and not Path(p.chromium.executable_path).exists():
             pytest.skip("no Chromium found, neither the system's nor Playwright's own")
-        # pages of one origin need no process of their own each: a tenth less work
+        # without site isolation: a tenth less work
         options = ["--no-sandbox", "--disable-gpu", "--disable-site-isolation-trials"]
         chromium = p.chromium.launch(executable_path=CHROMIUM, args=options)
         yield chromium

@@ -111,7 +111,7 @@ class _Parser(argparse.ArgumentParser):
             self.add_argument("--help-all", action=_HelpAll, nargs=0, help=text)
 
     def _show_examples(self, examples: Sequence[str]) -> None:
-        """End the help with them; other ends follow, which no parser wraps."""
+        """End the help with the examples; the epilog follows as it is written."""
         if not examples:
             return
         end = self.epilog or ""

@@ -183,7 +183,7 @@ def spectra(record: TimeSeries, period: int, periods: int = 0) -> FigureFiles:
         columns = 1 if is_narrow(figure) else 2
         every = (zip(*panel.get_legend_handles_labels(), strict=True) for panel in panels)
         shown = {label: handle for pairs in every for handle, label in pairs}
-        figure.legend(shown.values(), shown, loc="outside lower center", ncols=columns)
+        figure.legend([*shown.values()], [*shown], loc="outside lower center", ncols=columns)
 
     return draw_figure("spectra", "Amplitude spectra of input and output", (5.4, 5.6), draw)
 

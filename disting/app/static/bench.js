@@ -184,7 +184,7 @@ export const createBench = (onChange) => {
   return {
     nodes: [element("div", { class: "toolbar" }, tools, add), canvas, hint],
     show: (given, at = {}) => { // parts that come from elsewhere; places of masses that stay are kept
-      if (JSON.stringify(given) !== JSON.stringify(parts)) picked = null; // an answer on what is there takes no choice back
+      if (JSON.stringify(given) !== JSON.stringify(parts)) picked = null; // an answer about the same machine keeps the choice
       parts = given;
       places = arrange(parts, Object.fromEntries(Object.entries({ ...places, ...at }).filter(([node]) => parts.masses.includes(+node))));
       draw();

@@ -109,8 +109,8 @@ def definition(at: Place) -> Place | None:
 
 @cache
 def _names_in(module: str) -> tuple[frozenset[str], dict[str, Place]]:
-    """Names that a module defines and those that it imports, which take less room than its tree;
-    none if there is no such module.
+    """Names that a module defines, and its imports; both are empty if there is no such module.
+    They take less memory than its syntax tree.
     """
     try:
         parsed = parse(module)
